@@ -2829,7 +2829,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__override)
-            opts="-c -h --rapid --jog --config --json --instance --help"
+            opts="-c -h --rapid --jog --spindle --config --json --instance --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -2840,6 +2840,10 @@ _glidepath() {
                     return 0
                     ;;
                 --jog)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --spindle)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

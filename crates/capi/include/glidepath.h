@@ -47,9 +47,9 @@ extern "C" {
 
 /* layout: begin, written by a test of the library */
 /* The version of the ABI: functions and structures. */
-#define GP_ABI 11u
+#define GP_ABI 12u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0x199e03c7cac11c7e)
+#define GP_LAYOUT UINT64_C(0xecd57f4734b916ba)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -110,7 +110,8 @@ enum {
     GP_COMMAND_TELL = 19,
     GP_COMMAND_REVERSE = 20,
     GP_COMMAND_FORWARD = 21,
-    GP_COMMAND_JOB = 22
+    GP_COMMAND_JOB = 22,
+    GP_COMMAND_SPINDLE_OVERRIDE = 23
 };
 
 /* Why a command was refused. */
@@ -245,7 +246,8 @@ enum {
     GP_EVENT_CODE_WORD_Q = 11,
     GP_EVENT_AWAIT = 12,
     GP_EVENT_TAP = 13,
-    GP_EVENT_PASSING_CODE = 14
+    GP_EVENT_PASSING_CODE = 14,
+    GP_EVENT_SPINDLE_ANGLE = 15
 };
 
 /* What a drive does, by the states of CiA 402. */
@@ -297,7 +299,8 @@ enum {
     GP_SPINDLE_FAULT = 0x8,
     GP_SPINDLE_ANGLE = 0x10,
     GP_SPINDLE_INDEX = 0x20,
-    GP_SPINDLE_SPEED = 0x40
+    GP_SPINDLE_SPEED = 0x40,
+    GP_SPINDLE_LOAD = 0x80
 };
 
 /* Why a servo stopped the joints by itself. */
@@ -601,7 +604,7 @@ GP_FIELD(gp_setpoint, index, 1232, 4);
 GP_FIELD(gp_setpoint, reserved, 1236, 4);
 
 /* What the interpolator does and how well. Counts are of this life of it. The record
-   glidepath.Status.v15. */
+   glidepath.Status.v16. */
 typedef struct gp_status {
     /* Identifies one life of the interpolator. */
     uint64_t boot_id;
@@ -789,8 +792,13 @@ typedef struct gp_status {
     uint32_t freeze_reason;
     /* 1 if the job that a planner has told of last is a stream of segments, 0 if not. */
     uint32_t job_stream;
+    /* Spindle override as commanded. */
+    double spindle_override;
+    /* Load of the spindle as it was measured last: the magnitude of its torque as a part of
+       its rated one; means something if GP_SPINDLE_LOAD is set. */
+    double spindle_load;
 } gp_status;
-GP_ASSERT(sizeof(gp_status) == 1888, "gp_status has another size");
+GP_ASSERT(sizeof(gp_status) == 1904, "gp_status has another size");
 GP_FIELD(gp_status, boot_id, 0, 8);
 GP_FIELD(gp_status, updated_ns, 8, 8);
 GP_FIELD(gp_status, period_ns, 16, 8);
@@ -878,9 +886,11 @@ GP_FIELD(gp_status, superposition, 1804, 4);
 GP_FIELD(gp_status, superposed, 1808, 72);
 GP_FIELD(gp_status, freeze_reason, 1880, 4);
 GP_FIELD(gp_status, job_stream, 1884, 4);
+GP_FIELD(gp_status, spindle_override, 1888, 8);
+GP_FIELD(gp_status, spindle_load, 1896, 8);
 
 /* What a servo stack knows of the joints it drives, at one moment. The record
-   glidepath.Feedback.v4. */
+   glidepath.Feedback.v5. */
 typedef struct gp_feedback {
     /* Identifies one life of the stack: another stack, or the same started again, has
        another. */
@@ -950,8 +960,10 @@ typedef struct gp_feedback {
     uint32_t index_kept;
     /* Where these were at the index pulse, as the drives count, mm or degrees. */
     double index_position[9];
+    /* Load of the spindle: the magnitude of its torque as a part of its rated one. */
+    double spindle_load;
 } gp_feedback;
-GP_ASSERT(sizeof(gp_feedback) == 896, "gp_feedback has another size");
+GP_ASSERT(sizeof(gp_feedback) == 904, "gp_feedback has another size");
 GP_FIELD(gp_feedback, boot_id, 0, 8);
 GP_FIELD(gp_feedback, number, 8, 8);
 GP_FIELD(gp_feedback, sample_ns, 16, 8);
@@ -981,6 +993,7 @@ GP_FIELD(gp_feedback, latch, 400, 416);
 GP_FIELD(gp_feedback, index_armed, 816, 4);
 GP_FIELD(gp_feedback, index_kept, 820, 4);
 GP_FIELD(gp_feedback, index_position, 824, 72);
+GP_FIELD(gp_feedback, spindle_load, 896, 8);
 
 /* The answer to a command. The record glidepath.CommandReply.v3. */
 typedef struct gp_reply {

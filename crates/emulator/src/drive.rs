@@ -53,6 +53,8 @@ pub(crate) struct Drive {
     offset: f64,
     /// counts/s.
     velocity: f64,
+    /// What of its torque a spindle needs, -1 to 1.
+    torque_r: f64,
     outputs: Outputs,
     fault: u16,
     /// How long the following error was too large, s.
@@ -85,6 +87,7 @@ impl Drive {
             place: settings.start_counts.get(axis).copied().unwrap_or(0).into(),
             offset: 0.0,
             velocity: 0.0,
+            torque_r: 0.0,
             outputs: Outputs::default(),
             fault: 0,
             behind_t: 0.0,
@@ -192,6 +195,7 @@ impl Drive {
             fault: self.fault,
             velocity: self.velocity.round() as i32,
             speed_rpm: self.speed_rpm().round() as i16,
+            torque: (1e3 * self.torque_r).round() as i16,
             digital: self.digital,
             probe: (self.probe_units.status, self.probe_units.places),
         }
@@ -259,6 +263,11 @@ impl Drive {
         };
         let told = match self.power {
             _ if self.is_stuck || objects.value(MOST_TORQUE) == 0 => None,
+            Power::Enabled if self.outputs.mode == CYCLIC_POSITION => {
+                // Its loop of position asks for all of the way in one step, as far as the torque goes.
+                let behind = self.outputs.target.wrapping_sub(self.actual());
+                Some(f64::from(behind) / step_t)
+            }
             Power::Enabled => {
                 let Outputs { mode, control, .. } = self.outputs;
                 let targets = (self.outputs.velocity, self.outputs.speed_rpm);
@@ -267,7 +276,10 @@ impl Drive {
             Power::QuickStop | Power::FaultReaction => Some(0.0),
             _ => None,
         };
-        self.velocity = motor.next(self.velocity, told, step_t);
+        let before = self.velocity;
+        self.velocity = motor.next(before, told, step_t);
+        let gain_rpm = (self.velocity - before) / motor.of_rpm(1.0);
+        self.torque_r = told.map_or(0.0, |_| gain_rpm / (motor.torque_rpm_per_s * step_t));
         self.place += self.velocity * step_t;
         if self.power == Power::FaultReaction && self.velocity == 0.0 {
             self.power = Power::Fault;

@@ -29,6 +29,8 @@ pub(crate) struct Inputs {
     pub(crate) velocity: i32,
     /// 0x6044, rev/min.
     pub(crate) speed_rpm: i16,
+    /// 0x6077, thousandths of the torque that a spindle has.
+    pub(crate) torque: i16,
     /// 0x60FD.
     pub(crate) digital: u32,
     /// 0x60B9, and 0x60BA to 0x60BD.

@@ -60,6 +60,7 @@ pub(crate) fn put_inputs(memory: &mut Memory, mapped: &[Mapped], inputs: Inputs,
             0x603f => memory.put(at, &inputs.fault.to_le_bytes()),
             0x606c => memory.put(at, &inputs.velocity.to_le_bytes()),
             0x6044 => memory.put(at, &inputs.speed_rpm.to_le_bytes()),
+            0x6077 => memory.put(at, &inputs.torque.to_le_bytes()),
             0x60fd => memory.put(at, &inputs.digital.to_le_bytes()),
             0x60b9 => memory.put(at, &inputs.probe.0.to_le_bytes()),
             0x60ba..=0x60bd => {

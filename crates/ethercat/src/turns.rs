@@ -36,6 +36,11 @@ impl Round {
         }
     }
 
+    /// Whether it goes round at 32 bits alone.
+    pub(crate) const fn is_whole(self) -> bool {
+        self.count == ALL
+    }
+
     /// What the counter shows at so many counts.
     #[allow(clippy::cast_possible_truncation, reason = "it is in the range")]
     pub(crate) const fn shown(self, counts: i64) -> i32 {

@@ -193,6 +193,7 @@ impl ProgramText {
             Event::SelectTool(tool) => writeln!(self.text, "T{tool}"),
             // Their further words are not part of the event.
             Event::MCode(19 | 61 | 66)
+            | Event::SpindleAngle { .. }
             | Event::Probe { .. }
             | Event::Synchronise { .. }
             | Event::CodeWord { .. }

@@ -19,6 +19,8 @@ pub enum Act {
     FeedOverride(f64),
     /// Set the rapid override, a ratio.
     RapidOverride(f64),
+    /// Set the spindle override, a ratio.
+    SpindleOverride(f64),
     /// Rest at the end of every block, or do so no longer.
     ToggleSingleBlock,
     /// Clear a latched fault.

@@ -95,6 +95,8 @@ pub struct MachineView {
     pub feed_r: f64,
     /// The rapid override, a ratio.
     pub rapid_r: f64,
+    /// The spindle override, a ratio.
+    pub spindle_r: f64,
     /// The axes that stand at a limit switch, and `P` for a probe that touches something.
     pub pins: String,
     /// Line of the job that is executed; 0 if none is.
@@ -120,6 +122,7 @@ impl Default for MachineView {
             mist: false,
             feed_r: 1.0,
             rapid_r: 1.0,
+            spindle_r: 1.0,
             pins: String::new(),
             line: 0,
             is_away: false,

@@ -54,20 +54,20 @@ impl Percent {
 pub(crate) struct Overrides {
     feed: Percent,
     rapid: Percent,
-    /// Kept for senders alone: what works the spindle knows no override.
-    spindle: i32,
+    spindle: Percent,
 }
 
 impl Overrides {
     pub(crate) const WHOLE: Self = Self {
         feed: Percent::WHOLE,
         rapid: Percent::WHOLE,
-        spindle: 100,
+        spindle: Percent::WHOLE,
     };
 
     pub(crate) fn follow(&mut self, machine: &MachineView, now: Duration) {
         self.feed.follow(machine.feed_r, now);
         self.rapid.follow(machine.rapid_r, now);
+        self.spindle.follow(machine.spindle_r, now);
     }
 
     pub(crate) fn change_feed(&mut self, change: Change, now: Duration, acts: &mut Vec<Act>) {
@@ -83,19 +83,29 @@ impl Overrides {
         }
     }
 
-    pub(crate) fn change_spindle(&mut self, change: Change) {
-        self.spindle = changed(self.spindle, change);
+    /// Inside what the machine allows, which refuses anything else.
+    pub(crate) fn change_spindle(
+        &mut self,
+        change: Change,
+        range: (i32, i32),
+        now: Duration,
+        acts: &mut Vec<Act>,
+    ) {
+        let value = changed(self.spindle.value, change).clamp(range.0, range.1.max(range.0));
+        if self.spindle.ask(value, now) {
+            acts.push(Act::SpindleOverride(self.spindle.ratio()));
+        }
     }
 
     /// Puts all of them back to 100 %.
     pub(crate) fn reset(&mut self, now: Duration, acts: &mut Vec<Act>) {
         self.change_feed(Change::Whole, now, acts);
         self.set_rapid(100, now, acts);
-        self.spindle = 100;
+        self.change_spindle(Change::Whole, (100, 100), now, acts);
     }
 
     pub(crate) const fn percents(&self) -> [i32; 3] {
-        [self.feed.value, self.rapid.value, self.spindle]
+        [self.feed.value, self.rapid.value, self.spindle.value]
     }
 }
 
@@ -109,6 +119,29 @@ fn changed(value: i32, change: Change) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_spindle_is_asked_for_no_more_than_the_machine_allows() {
+        let mut overrides = Overrides::WHOLE;
+        let (mut acts, at) = (Vec::new(), Duration::from_millis);
+        for _ in 0..4 {
+            overrides.change_spindle(Change::By(10), (50, 120), at(0), &mut acts);
+        }
+        assert_eq!(acts, [Act::SpindleOverride(1.1), Act::SpindleOverride(1.2)]);
+        overrides.change_spindle(Change::Whole, (50, 120), at(1), &mut acts);
+        overrides.change_spindle(Change::By(-1), (50, 120), at(2), &mut acts);
+        assert_eq!(overrides.percents(), [100, 100, 99]);
+        // What the machine says counts later.
+        let machine = MachineView {
+            spindle_r: 0.8,
+            ..MachineView::default()
+        };
+        overrides.follow(&machine, at(600));
+        assert_eq!(overrides.percents()[2], 80);
+        acts.clear();
+        overrides.reset(at(601), &mut acts);
+        assert_eq!(acts, [Act::SpindleOverride(1.0)]);
+    }
 
     #[test]
     fn steps_add_up_before_the_machine_has_answered() {

@@ -24,6 +24,8 @@ pub struct MachineSettings {
     pub has_homing: bool,
     /// Highest speed of the spindle, revolutions a minute.
     pub most_rpm: f64,
+    /// The least and the highest override of the spindle, percent.
+    pub spindle_override: (i32, i32),
     /// Bytes that a sender may have unanswered.
     pub rx_bytes: usize,
     /// Motion that is planned ahead at most, s.
@@ -44,6 +46,7 @@ impl Default for MachineSettings {
             tolerance_mm: 0.02,
             has_homing: false,
             most_rpm: 24_000.0,
+            spindle_override: (10, 200),
             rx_bytes: 128,
             ahead_t: 3.0,
             version: String::new(),

@@ -116,7 +116,7 @@ layout!(setpoint, Setpoint, "glidepath.Setpoint.v6", 1240,
     away: 576, events: 648, superposed: 1160, index: 1232,
     reserved: 1236,
 });
-layout!(status, Status, "glidepath.Status.v15", 1888,
+layout!(status, Status, "glidepath.Status.v16", 1904,
     Status { state: MachineState::Idle.code(), ..Zeroable::zeroed() }, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
@@ -133,29 +133,30 @@ layout!(status, Status, "glidepath.Status.v15", 1888,
     frames_refused: 888, lateness: 984, work: 1016, latency: 1048, response: 1080,
     job_number: 1112, next_epoch: 1120, job_stage: 1128, job_held: 1132, last_error: 1136,
     last_event: 1264, message: 1392, job: 1520, job_end: 1648,
-    jog_client: 1776, jog_number: 1784, spindle_v: 1792, spindle_flags: 1800, superposition: 1804, superposed: 1808, freeze_reason: 1880, job_stream: 1884,
+    jog_client: 1776, jog_number: 1784, spindle_v: 1792, spindle_flags: 1800, superposition: 1804, superposed: 1808, freeze_reason: 1880, job_stream: 1884, spindle_override: 1888, spindle_load: 1896,
 });
 layout!(command_request, CommandRequest, "glidepath.CommandRequest.v8", 208,
     CommandRequest::new(1, 1, Command::Ping), {
     client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32, job: 56, asked_ns: 64, job_stream: 72, reserved: 76, text: 80,
 });
-layout!(auxiliary, Auxiliary, "glidepath.Auxiliary.v2", 656,
-    Zeroable::zeroed(), {
+layout!(auxiliary, Auxiliary, "glidepath.Auxiliary.v3", 680,
+    Auxiliary::default(), {
     boot_id: 0, generation: 8, epoch: 16, sequence: 24, awaited: 32, awaited_since_ns: 56,
     awaited_until_ns: 64, awaited_value: 72, awaited_kind: 80, line: 84, awaited_words: 88, spindle_speed: 112,
     spindle: 120, coolant: 124, tool: 128, prepared_tool: 132, digital_out: 136, analog_out: 144,
+    spindle_angle: 656, spindle_override: 664, spindle_turn: 672, reserved: 676,
 });
 layout!(command_reply, CommandReply, "glidepath.CommandReply.v3", 152,
     CommandReply { state: 1, ..Zeroable::zeroed() }, {
     boot_id: 0, number: 8, refusal: 16, state: 20, message: 24,
 });
-layout!(feedback, Feedback, "glidepath.Feedback.v4", 896,
+layout!(feedback, Feedback, "glidepath.Feedback.v5", 904,
     Zeroable::zeroed(), {
     boot_id: 0, number: 8, sample_ns: 16, reference: 24, setpoint_number: 32, joints: 40,
     enabled: 44, homed: 48, homing: 52, fault: 56, limit_low: 60, limit_high: 64, home_switch: 68,
     position: 72, velocity: 144, drive_state: 216, fault_code: 252, digital_in: 288, analog_in: 296,
     spindle_angle: 360, spindle_v: 368, spindle_index_count: 376, spindle_flags: 384, loss: 388,
-    loss_value: 392, latch: 400, index_armed: 816, index_kept: 820, index_position: 824,
+    loss_value: 392, latch: 400, index_armed: 816, index_kept: 820, index_position: 824, spindle_load: 896,
 });
 layout!(jog_demand, JogDemand, "glidepath.JogDemand.v2", 136,
     Zeroable::zeroed(), {

@@ -268,7 +268,7 @@ function digits() {
     fill($('[data-v]', tile), `${Math.round(ratio * 100)}<span class="unit">%</span>`);
     $('.bar i', tile).style.width = `${Math.min(100, Math.abs(ratio) * 50)}%`; $('.bar u', tile).style.left = '50%';
   }
-  put($('#spin'), s.spindle && s.spindle.turns !== 'off' ? grouped(s.spindle.speed) : s.spindle ? '0' : '–'); put($('#spinof'), s.spindle ? s.spindle.turns + (s.spindle.coolant ? `, ${s.spindle.coolant}` : '') : 'not known here');
+  put($('#spin'), s.spindle && s.spindle.turns !== 'off' ? grouped(s.spindle.speed) : s.spindle ? '0' : '–'); put($('#spinof'), s.spindle ? s.spindle.turns + (s.spindle_load === null || s.spindle_load === undefined ? '' : `, load ${Math.round(s.spindle_load * 100)} %`) + (s.spindle.speed !== s.spindle.programmed ? `, S${grouped(s.spindle.programmed)}` : '') + (s.spindle.coolant ? `, ${s.spindle.coolant}` : '') : 'not known here');
   // While a tool is asked for, the one that is told is not in the spindle yet.
   const asked = s.asked && s.asked.tools, now = asked ? asked.before && asked.before.number : s.tool;
   put($('#tool'), now ? `T${now}` : '–'); put($('#toolof'), asked ? `T${asked.wanted ? asked.wanted.number : 0} is wanted` : now ? 'told to be in' : 'none told');

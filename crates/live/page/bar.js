@@ -103,7 +103,7 @@ function paintWay() {
 /* ---- overrides, in steps of 5 % */
 function layOverrides() {
   $$('.ov').forEach(tile => {
-    const kind = tile.dataset.ov, most = kind === 'feed-override' ? 2 : 1, [less, full, more] = $$('button', tile);
+    const kind = tile.dataset.ov, most = kind === 'rapid-override' ? 1 : 2, [less, full, more] = $$('button', tile);
     // What was asked for and is not told yet is counted on, so that of two quick presses none is lost; orders go one behind the other.
     let wanted = 0, until = 0, last = Promise.resolve();
     const now = () => performance.now() < until ? wanted : S.status ? S.status[kind.replace('-', '_')] : 1;

@@ -10,6 +10,10 @@ use glidepath_program::Event;
 const NEAR: f64 = 0.05;
 const NEAR_PART: f64 = 0.005;
 
+/// How fast it turns to an angle, rev/s, and how near it is there, revolutions.
+const ORIENTING: f64 = 1.0;
+const ORIENTED: f64 = 1e-4;
+
 /// How much faster than its motor could a spindle stops that is stuck.
 const STUCK: f64 = 10.0;
 
@@ -44,6 +48,9 @@ pub(crate) struct Spindle {
     asked: f64,
     /// 1 for M3, −1 for M4, 0 for M5, M6 and M19.
     direction: f64,
+    /// The angle for the next M19, revolutions, and the one that it is to stand at.
+    next_angle: f64,
+    held_angle: Option<f64>,
     pub(crate) speed: f64,
     /// Revolutions.
     pub(crate) angle: f64,
@@ -68,6 +75,8 @@ impl Spindle {
             settings,
             asked: 0.0,
             direction: 0.0,
+            next_angle: 0.0,
+            held_angle: None,
             speed: 0.0,
             angle: settings.angle,
             index_count: 0,
@@ -86,6 +95,12 @@ impl Spindle {
             Event::MCode(4) => self.direction = -1.0,
             // Tools are changed, and it is turned to an angle, at rest: as the auxiliary record has it.
             Event::MCode(5 | 6 | 19) => self.direction = 0.0,
+            Event::SpindleAngle { deg, .. } => self.next_angle = deg / 360.0,
+            _ => {}
+        }
+        match event {
+            Event::MCode(3..=5) => self.held_angle = None,
+            Event::MCode(19) => self.held_angle = Some(self.next_angle),
             _ => {}
         }
     }
@@ -109,6 +124,16 @@ impl Spindle {
         let (before, most) = ((self.speed, self.angle), by_force * acceleration * step_t);
         self.speed += away.clamp(-most, most);
         self.angle += f64::midpoint(before.0, self.speed) * step_t;
+        if let Some(angle) = self.held_angle.filter(|_| self.speed.abs() < NEAR) {
+            // The shorter way, whatever was asked for.
+            let off = (angle - self.angle + 0.5).rem_euclid(1.0) - 0.5;
+            let most = ORIENTING * step_t;
+            self.angle += if self.is_stuck {
+                0.0
+            } else {
+                off.clamp(-most, most)
+            };
+        }
         if !self.is_index_lost && (self.angle.floor() - before.1.floor()).abs() > 0.5 {
             self.index_count += 1;
         }
@@ -132,8 +157,13 @@ impl Spindle {
         let wanted = asked * self.part;
         let is_near = (self.speed - wanted).abs() < NEAR.max(NEAR_PART * wanted.abs());
         let flag = |is: bool, flag: SpindleFlags| if is { flag.0 } else { 0 };
+        let is_oriented = self.held_angle.is_some_and(|angle| {
+            let off = (angle - self.angle + 0.5).rem_euclid(1.0) - 0.5;
+            off.abs() < ORIENTED && self.speed.abs() < NEAR
+        });
         SpindleFlags(
-            flag(is_near, SpindleFlags::AT_SPEED)
+            flag(is_oriented, SpindleFlags::ORIENTED)
+                | flag(is_near, SpindleFlags::AT_SPEED)
                 | flag(self.speed.abs() < NEAR, SpindleFlags::STOPPED)
                 | SpindleFlags::SPEED.0
                 | SpindleFlags::ANGLE.0
@@ -144,8 +174,31 @@ impl Spindle {
 
 #[cfg(test)]
 mod tests {
-    use super::Spindle;
-    use glidepath_program::Event;
+    use super::{Spindle, SpindleFlags};
+    use glidepath_program::{Event, OrientWay};
+
+    #[test]
+    fn it_stands_at_the_angle_of_m19_until_it_turns_again() {
+        let mut spindle = Spindle::default();
+        let way = OrientWay::Shortest;
+        for event in [
+            Event::SpindleSpeed(600.0),
+            Event::MCode(3),
+            Event::SpindleAngle { deg: 90.0, way },
+            Event::MCode(19),
+        ] {
+            spindle.take(event);
+            for _ in 0..1000 {
+                spindle.step(0.001);
+            }
+        }
+        assert!((spindle.angle.rem_euclid(1.0) - 0.25).abs() < 1e-4);
+        assert!(spindle.flags().contains(SpindleFlags::ORIENTED));
+        spindle.take(Event::MCode(6));
+        assert!(spindle.flags().contains(SpindleFlags::ORIENTED));
+        spindle.take(Event::MCode(3));
+        assert!(!spindle.flags().contains(SpindleFlags::ORIENTED));
+    }
 
     #[test]
     fn it_stops_for_a_tool_and_to_be_oriented() {

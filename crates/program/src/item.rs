@@ -120,6 +120,13 @@ pub const TAP_OVERTRAVEL: f64 = 10.0;
 pub enum Event {
     /// Spindle speed (S), rev/min. Does not stop the motion.
     SpindleSpeed(f64),
+    /// The angle at which the spindle is to stand from the next M19 on. Does not stop the motion.
+    SpindleAngle {
+        /// The angle, degrees from 0 to 360, rising as M3 turns.
+        deg: f64,
+        /// The way there.
+        way: OrientWay,
+    },
     /// Tool selection (T). Does not stop the motion.
     SelectTool(u32),
     /// An M code other than the program stops. The machine is at rest when it happens.
@@ -189,6 +196,7 @@ impl Event {
     pub const fn is_at_rest(&self) -> bool {
         match self {
             Self::SpindleSpeed(_)
+            | Self::SpindleAngle { .. }
             | Self::SelectTool(_)
             | Self::PassingCode(_)
             | Self::DigitalOutput { .. }
@@ -203,6 +211,17 @@ impl Event {
             | Self::Tap { .. } => true,
         }
     }
+}
+
+/// The way of a spindle to an angle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OrientWay {
+    /// The shorter one.
+    Shortest,
+    /// As M3 turns.
+    Clockwise,
+    /// As M4 turns.
+    Counterclockwise,
 }
 
 /// A word of an M code.

@@ -50,8 +50,8 @@ mod travel;
 pub use frame::{Frame, FrameFlags};
 pub use frame_events::{EVENTS_MOST, FrameEvents, TimedEvent};
 pub use item::{
-    CodeWord, Event, Item, ItemKind, PHASE_STEPS, PathMode, ProgramLine, Rate, TAP_DEPTHS_UM,
-    TAP_OVERTRAVEL,
+    CodeWord, Event, Item, ItemKind, OrientWay, PHASE_STEPS, PathMode, ProgramLine, Rate,
+    TAP_DEPTHS_UM, TAP_OVERTRAVEL,
 };
 pub use limits::{Limits, PathBounds};
 pub use override_::Override;

@@ -140,6 +140,8 @@ message!(Status, "glidepath.Status", {
     86 superposed,
     87 freeze_reason,
     88 job_stream,
+    89 spindle_override,
+    90 spindle_load,
 });
 
 #[cfg(test)]

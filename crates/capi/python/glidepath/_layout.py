@@ -6,8 +6,8 @@ Written by a test of the library: do not change it here.
 import ctypes
 import enum
 
-ABI = 11
-LAYOUT = 0x199e03c7cac11c7e
+ABI = 12
+LAYOUT = 0xecd57f4734b916ba
 AXES = 9
 
 
@@ -72,6 +72,7 @@ class Command(enum.IntEnum):
     REVERSE = 20
     FORWARD = 21
     JOB = 22
+    SPINDLE_OVERRIDE = 23
 
 
 class Refusal(enum.IntEnum):
@@ -217,6 +218,7 @@ class Event(enum.IntEnum):
     AWAIT = 12
     TAP = 13
     PASSING_CODE = 14
+    SPINDLE_ANGLE = 15
 
 
 class Drive(enum.IntEnum):
@@ -274,6 +276,7 @@ class Spindle(enum.IntFlag):
     ANGLE = 16
     INDEX = 32
     SPEED = 64
+    LOAD = 128
 
 
 class Stopped(enum.IntEnum):
@@ -562,6 +565,8 @@ class StatusRecord(ctypes.Structure):
         ("superposed", ctypes.c_double * 9),
         ("freeze_reason", ctypes.c_uint32),
         ("job_stream", ctypes.c_uint32),
+        ("spindle_override", ctypes.c_double),
+        ("spindle_load", ctypes.c_double),
     ]
 
 
@@ -598,6 +603,7 @@ class FeedbackRecord(ctypes.Structure):
         ("index_armed", ctypes.c_uint32),
         ("index_kept", ctypes.c_uint32),
         ("index_position", ctypes.c_double * 9),
+        ("spindle_load", ctypes.c_double),
     ]
 
 
@@ -823,7 +829,7 @@ PLACES = {
         "index": 1232,
         "reserved": 1236,
     }),
-    StatusRecord: (1888, {
+    StatusRecord: (1904, {
         "boot_id": 0,
         "updated_ns": 8,
         "period_ns": 16,
@@ -911,8 +917,10 @@ PLACES = {
         "superposed": 1808,
         "freeze_reason": 1880,
         "job_stream": 1884,
+        "spindle_override": 1888,
+        "spindle_load": 1896,
     }),
-    FeedbackRecord: (896, {
+    FeedbackRecord: (904, {
         "boot_id": 0,
         "number": 8,
         "sample_ns": 16,
@@ -942,6 +950,7 @@ PLACES = {
         "index_armed": 816,
         "index_kept": 820,
         "index_position": 824,
+        "spindle_load": 896,
     }),
     ReplyRecord: (152, {
         "boot_id": 0,

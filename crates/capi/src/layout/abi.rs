@@ -4,7 +4,7 @@ use super::structure::Structure;
 use super::{demands, digest, own, records};
 
 /// The version of the ABI: functions and structures. It rises with every change of either.
-pub(crate) const ABI: u32 = 11;
+pub(crate) const ABI: u32 = 12;
 
 /// All structures, each after those it is made of.
 pub(super) const STRUCTURES: &[&Structure] = &[

@@ -128,6 +128,7 @@ fn of_servos() -> Vec<Codes> {
                 ("ANGLE", SpindleFlags::ANGLE.0),
                 ("INDEX", SpindleFlags::INDEX.0),
                 ("SPEED", SpindleFlags::SPEED.0),
+                ("LOAD", SpindleFlags::LOAD.0),
             ],
         ),
         own!("STOPPED", "Why a servo stopped the joints by itself.", Stopped:

@@ -170,7 +170,7 @@ structure! {
 
 structure! {
     /// What the interpolator does and how well. Counts are of this life of it.
-    STATUS: "gp_status" = Status, Status::NAME, 1888 {
+    STATUS: "gp_status" = Status, Status::NAME, 1904 {
         /// Identifies one life of the interpolator.
         boot_id: u64,
         /// When this was true, ns of CLOCK_MONOTONIC. A reader takes an old one for a dead
@@ -355,12 +355,17 @@ structure! {
         freeze_reason: u32,
         /// 1 if the job that a planner has told of last is a stream of segments, 0 if not.
         job_stream: u32,
+        /// Spindle override as commanded.
+        spindle_override: f64,
+        /// Load of the spindle as it was measured last: the magnitude of its torque as a part of its rated one;
+        /// means something if GP_SPINDLE_LOAD is set.
+        spindle_load: f64,
     }
 }
 
 structure! {
     /// What a servo stack knows of the joints it drives, at one moment.
-    FEEDBACK: "gp_feedback" = Feedback, Feedback::NAME, 896 {
+    FEEDBACK: "gp_feedback" = Feedback, Feedback::NAME, 904 {
         /// Identifies one life of the stack: another stack, or the same started again, has another.
         boot_id: u64,
         /// Counts the records of this life, without gaps. A gap seen by a reader is loss.
@@ -425,6 +430,8 @@ structure! {
         index_kept: u32,
         /// Where these were at the index pulse, as the drives count, mm or degrees.
         index_position: Each<f64>,
+        /// Load of the spindle: the magnitude of its torque as a part of its rated one.
+        spindle_load: f64,
     }
 }
 

@@ -196,9 +196,15 @@ fn lead_spindle<W: Wire>(
                     \"profile-velocity\" or \"velocity\"";
         return Err(unfit(device, what.to_owned()));
     }
+    if spindle.orientation.is_some() && !parameters::round_of(bus, device, 0x607b)?.is_whole() {
+        let what = "its position does not go round at 32 bits but in the range of 0x607B, and an angle is taken \
+                    from the whole of it: set both of its ends to 0, or leave orientation out of its table in \
+                    drives.toml";
+        return Err(unfit(device, what.to_owned()));
+    }
     if spindle.mapping == Mapping::Written {
         let (outputs, inputs) = spindle.entries();
-        mapping::map_entries(bus, device, (&outputs, &inputs))?;
+        mapping::map_entries(bus, device, (outputs.as_slice(), inputs.as_slice()))?;
     }
     parameters::write_spindle(bus, device, period_ns, spindle.mode)
 }

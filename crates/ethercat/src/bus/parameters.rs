@@ -68,18 +68,27 @@ pub(super) fn write_all<W: Wire>(
 }
 
 /// The range of a drive's counter (0x607B); one that does not tell has 32 bits.
-#[allow(
-    clippy::cast_possible_wrap,
-    reason = "the bits of a number with a sign"
-)]
 pub(super) fn round<W: Wire>(
     bus: &mut Exchange<'_, W>,
     device: &Device,
     drive: &DriveSettings,
 ) -> Result<Round, BusError> {
+    round_of(bus, device, drive.own(0x607b))
+}
+
+/// The range of a counter, whose object of that is this.
+#[allow(
+    clippy::cast_possible_wrap,
+    reason = "the bits of a number with a sign"
+)]
+pub(super) fn round_of<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    index: u16,
+) -> Result<Round, BusError> {
     let mut ends = [0; 2];
     for (sub, end) in (1..).zip(&mut ends) {
-        match read(bus, device, object(drive.own(0x607b), sub, 4)) {
+        match read(bus, device, object(index, sub, 4)) {
             Ok(told) => *end = told as i32,
             Err(BusError::Object { .. }) => return Ok(Round::of(0, 0)),
             Err(error) => return Err(error),

@@ -77,6 +77,10 @@ impl Commands {
 
     /// The record has come.
     pub(crate) fn hear(&mut self, record: &Auxiliary, now_ns: u64) {
+        // The operator's hand has no place in the motion, and is obeyed at once.
+        if self.now.boot_id == 0 || self.now.boot_id == record.boot_id {
+            self.now.spindle_override = record.spindle_override;
+        }
         (self.heard, self.since_ns) = (Some(*record), now_ns);
     }
 

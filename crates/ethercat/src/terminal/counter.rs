@@ -69,9 +69,15 @@ impl Counter {
         self.count - self.apart(self.raw.unwrap_or(raw), raw)
     }
 
-    /// What it had counted when it was at zero, if its number has a sign.
-    pub(super) fn zero(&self) -> i64 {
-        self.count - self.apart(self.raw.unwrap_or(0), 0)
+    /// What it had counted when it was at zero, if its number has a sign or none.
+    pub(super) fn zero(&self, has_sign: bool) -> i64 {
+        let raw = self.raw.unwrap_or(0);
+        let from_zero = if has_sign {
+            self.apart(raw, 0)
+        } else {
+            raw.into()
+        };
+        self.count - from_zero
     }
 
     /// How far a number is from another, over its end if that is nearer.
@@ -113,9 +119,10 @@ mod tests {
         let mut counter = Counter::new((8, 16));
         assert!(!counter.is_known() && counter.is_missed());
         hear(&mut counter, 0xfff0, 1000);
-        assert_eq!((counter.count(), counter.zero()), (0, 16));
+        assert_eq!((counter.count(), counter.zero(true)), (0, 16));
+        assert_eq!(counter.zero(false), -0xfff0);
         hear(&mut counter, 0x10, 2000);
-        assert_eq!((counter.count(), counter.zero()), (32, 16));
+        assert_eq!((counter.count(), counter.zero(true)), (32, 16));
         assert_eq!(counter.count_of(0xfff8), 8);
         hear(&mut counter, 0xffe0, 3000);
         assert_eq!(counter.count(), -16);

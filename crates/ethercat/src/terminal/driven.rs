@@ -13,7 +13,7 @@ use super::settings::{AnalogOutput, DigitalOutput};
 use super::signal::{Of, Quantity};
 use super::wiring::{Wired, Wiring};
 use glidepath_link::Auxiliary;
-use glidepath_program::Event;
+use glidepath_program::{Event, OrientWay};
 
 /// An output.
 #[derive(Debug, Clone, Copy)]
@@ -85,6 +85,10 @@ pub(super) struct DrivenOutputs {
     /// The drive of the spindle, and the speed at which it is to turn, rev/min.
     spindle: Gate,
     spindle_rpm: f64,
+    /// The same as the program gave it, without the operator's override and a direction.
+    programmed_rpm: f64,
+    /// The angle at which it is to stand.
+    spindle_angle: Option<(f64, OrientWay)>,
     has_spindle: bool,
     safe: u32,
     /// Nothing was heard of the record since nobody was to be obeyed.
@@ -171,15 +175,28 @@ impl DrivenOutputs {
             put_value(image, &output.wired, value);
         }
         let wanted_rpm = Quantity::SpindleVelocity.value(record);
-        let is_on = wanted_rpm.abs() > 0.0;
+        let angle = record.orientation();
+        let is_on = wanted_rpm.abs() > 0.0 || angle.is_some();
         let rests = self.spindle.rests(is_on, (Of::Spindle, cycle));
         self.spindle_rpm = if rests { 0.0 } else { wanted_rpm };
+        self.programmed_rpm = record.spindle_speed.abs();
+        self.spindle_angle = angle.filter(|_| !rests);
         has_dropped | (self.has_spindle && self.spindle.drops(rests, !is_on, cycle))
     }
 
     /// The speed at which the drive of the spindle is to turn, rev/min.
     pub(super) const fn spindle_rpm(&self) -> f64 {
         self.spindle_rpm
+    }
+
+    /// The speed that the program gave it, rev/min.
+    pub(super) const fn programmed_rpm(&self) -> f64 {
+        self.programmed_rpm
+    }
+
+    /// The angle at which it is to stand instead, degrees, and the way there.
+    pub(super) const fn spindle_angle(&self) -> Option<(f64, OrientWay)> {
+        self.spindle_angle
     }
 }
 
@@ -188,7 +205,7 @@ pub(crate) fn at_rest(wiring: &Wiring) -> Vec<u8> {
     let mut image = wiring.unwired.clone();
     image.resize(wiring.sizes.0, 0);
     if let Some(spindle) = &wiring.spindle {
-        spindle.put(&mut image, 0, 0);
+        spindle.put(&mut image, &spindle.at_rest());
     }
     for output in &wiring.outputs {
         put_bit(&mut image, output.bit, output.what.rest);

@@ -29,6 +29,8 @@ pub struct JointEncoderSettings {
     /// Where the joint is when it counts zero, mm or degrees; `None` for one that only counts: it is where the drive
     /// says when it is heard first, and when the drive has found its home.
     pub home_offset: Option<f64>,
+    /// Its number has no sign: with 16 bits, 40000 is no -25536.
+    pub is_unsigned: bool,
     /// What it is for.
     pub used: EncoderUse,
     /// How far it may be from what the drive counts, mm or degrees.
@@ -100,7 +102,8 @@ impl JointEncoder {
             return None;
         }
         let settings = &self.wired.settings;
-        let from = settings.home_offset.map_or(0, |_| self.counter.zero());
+        let zero = self.counter.zero(!settings.is_unsigned);
+        let from = settings.home_offset.map_or(0, |_| zero);
         #[allow(clippy::cast_precision_loss, reason = "far below 2⁵³")]
         let of = |count: i64| (count - from) as f64;
         let (end, begin, younger_r) = self.counter.around(at_ns);

@@ -7,7 +7,7 @@
 //! | `commands` | what is commanded, and when |
 //! | `bits`, `wiring` | where in the process data everything is |
 //! | `driven` | outputs, cycle by cycle |
-//! | `spindle_settings`, `spindle_wiring`, `spindle_drive` | a spindle on a drive in velocity mode |
+//! | `spindle_settings`, `spindle_wiring`, `spindle_drive`, `orienting` | a spindle on a drive in velocity mode, and at an angle |
 //! | `encoder_settings`, `encoder_wiring`, `encoder` | the spindle's encoder |
 //! | `joint_encoder` | encoders of joints |
 //! | `counter` | a counter without its wraps, of both |
@@ -22,6 +22,7 @@ mod encoder;
 mod encoder_settings;
 mod encoder_wiring;
 mod joint_encoder;
+mod orienting;
 mod settings;
 mod signal;
 mod spindle_drive;
@@ -34,6 +35,7 @@ mod worked;
 pub use at::At;
 pub use encoder_settings::EncoderSettings;
 pub use joint_encoder::{EncoderUse, JointEncoderSettings};
+pub use orienting::OrientationSettings;
 pub use settings::{
     ANALOG_INPUTS, AnalogInput, AnalogOutput, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
     Parameter, TerminalSettings,

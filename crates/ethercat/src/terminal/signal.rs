@@ -61,7 +61,7 @@ const COOLANT: [u32; 3] = [7, 8, 9];
 
 /// Whether an event says how the spindle is to turn.
 pub(crate) fn is_of_spindle(event: Event) -> bool {
-    matches!(event, Event::SpindleSpeed(_)) || is_code(event, &SPINDLE)
+    matches!(event, Event::SpindleSpeed(_) | Event::SpindleAngle { .. }) || is_code(event, &SPINDLE)
 }
 
 fn turns(record: &Auxiliary, way: SpindleState) -> bool {
@@ -116,8 +116,8 @@ impl Quantity {
                 output.copied().unwrap_or(0.0)
             }
             _ if !Signal::SpindleOn.is_on(record) => 0.0,
-            Self::SpindleVelocity if backwards => -record.spindle_speed.abs(),
-            Self::SpindleSpeed | Self::SpindleVelocity => record.spindle_speed.abs(),
+            Self::SpindleVelocity if backwards => -record.spindle_rpm().abs(),
+            Self::SpindleSpeed | Self::SpindleVelocity => record.spindle_rpm().abs(),
         }
     }
 
@@ -165,6 +165,10 @@ mod tests {
         assert_eq!(seen(&record), (reverse, 8000.0, -8000.0));
         record.take(Event::MCode(19));
         assert_eq!(seen(&record), ([false, false, false, true], 0.0, 0.0));
+        // It is held while the tool is changed.
+        record.take(Event::MCode(6));
+        assert_eq!(seen(&record), ([false, false, false, true], 0.0, 0.0));
+        record.take(Event::MCode(3));
         record.take(Event::MCode(6));
         assert_eq!(seen(&record), ([false; 4], 0.0, 0.0));
     }

@@ -3,15 +3,19 @@
 //! ```text
 //!        is to turn        has power            is to stand, and stands
 //!  Off ─────────────► Enabling ─────► Turning ──────────────────────────► Off
-//!   ▲                    │ too slow       │ its power is gone
-//!   └─ Resetting ◄── Failed ◄┴────────────┴── from anywhere, when the drive says so
+//!   ▲                    │ too slow    │  ▲ │ its power is gone
+//!   │                    │             │  │ └► Failed
+//!   │                    │             ▼  │ at rest, and back in its mode of velocity
+//!   │                    │          Orienting: stands, is to stand at an angle
+//!   └─ Resetting ◄── Failed ◄── from anywhere, when the drive says so
 //! ```
 //!
 //! The speed is led along a ramp, in every mode, and power goes when the spindle stands: a drive that
-//! loses its power in motion lets the tool run out.
+//! loses its power in motion lets the tool run out. At an angle it is held with power.
 
+use super::orienting::{Angle, Orienting};
 use super::spindle_settings::SpindleSettings;
-use super::spindle_wiring::{SpindleInputs, WiredSpindle};
+use super::spindle_wiring::{SpindleInputs, SpindleOutputs, WiredSpindle};
 use crate::event::Event;
 use crate::state;
 use glidepath_link::{DriveState, Feedback, SpindleFlags};
@@ -29,15 +33,21 @@ const RESET_NS: u64 = 1_000_000_000;
 const SETTLED_NS: u64 = 20_000_000;
 /// A pause between two cycles counts as so long at most, ns: the speed does not step.
 const LONGEST_NS: u64 = 20_000_000;
+/// The time constant of the load that is told, ns: torque trembles with the teeth of a tool.
+const LOAD_NS: f64 = 1e8;
 /// "Generic error" by CiA 301, of a drive that does not tell its own.
 const ANY_FAULT: u16 = 0x1000;
+/// Cyclic synchronous position, as 0x6060 has it.
+const CYCLIC_POSITION: i8 = 8;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Phase {
     Off,
     /// It is on its way to power, since then, ns.
     Enabling(u64),
     Turning,
+    /// It is led in position, to an angle and at it, or to rest from there; `None` before its drive is in that mode.
+    Orienting(Option<Orienting>),
     /// It has a fault, or did not get power; to be reset by the operator.
     Failed,
     /// That was asked for, since then, ns.
@@ -50,6 +60,10 @@ pub(super) struct SpindleCycle {
     pub(super) now_ns: u64,
     /// The speed that is commanded, rev/min, negative counterclockwise; 0 to stand.
     pub(super) wanted_rpm: f64,
+    /// The speed as the program gave it, without the operator's override, rev/min.
+    pub(super) programmed_rpm: f64,
+    /// The angle at which it is to stand, if it is to stand at one.
+    pub(super) angle: Option<Angle>,
     /// Whether its device is there.
     pub(super) is_present: bool,
     /// Whether what it told is of this cycle: not where another device did not take part.
@@ -68,10 +82,15 @@ pub(super) struct SpindleDrive {
     /// The speed that it is told, rev/min.
     told_rpm: f64,
     actual_rpm: f64,
+    /// Its load, smoothed, as a part of its rated torque.
+    load_r: f64,
     /// Since when its speed is near what is commanded, ns.
     near_ns: Option<u64>,
     last_ns: u64,
     wanted_rpm: f64,
+    /// The angle at which it is to stand; `None` as well where it is turned to none.
+    angle: Option<Angle>,
+    said: SpindleInputs,
     is_present: bool,
     is_due: bool,
     /// Its last fault, 0 if it did not get power.
@@ -85,9 +104,12 @@ impl SpindleDrive {
             phase: Phase::Off,
             told_rpm: 0.0,
             actual_rpm: 0.0,
+            load_r: 0.0,
             near_ns: None,
             last_ns: 0,
             wanted_rpm: 0.0,
+            angle: None,
+            said: SpindleInputs::REST,
             is_present: true,
             is_due: false,
             failed: None,
@@ -127,20 +149,53 @@ impl SpindleDrive {
             (cycle.now_ns, cycle.is_present, cycle.is_due);
         let most = self.settings().max_rpm;
         self.wanted_rpm = cycle.wanted_rpm.clamp(-most, most);
+        let was = self.angle;
+        self.angle = cycle
+            .angle
+            .filter(|_| self.settings().orientation.is_some());
+        if self.angle != was {
+            self.near_ns = None;
+        }
+        self.said = said;
         // Unheard it is taken to follow: the bus is not kept from coming up again by what is not known.
         self.actual_rpm = if cycle.is_heard {
             self.settings().rpm(said.actual)
         } else {
             self.told_rpm
         };
+        self.smooth_load(said.torque, since_ns);
         let state = state::of(said.status);
         self.fail_by(state, said, tell);
         let control = self.step(&cycle, state, since_ns, tell);
-        // What is beyond its highest speed is never reached.
-        let is_reachable = cycle.wanted_rpm.abs() <= most;
+        // What a program asks for beyond its highest speed is never reached; an operator has that at most.
+        let is_reachable = cycle.programmed_rpm <= most;
         self.judge_speed(cycle.now_ns, is_reachable);
-        let target = self.settings().counts(self.told_rpm);
-        self.wired.put(image, control, target);
+        let outputs = self.outputs(control);
+        self.wired.put(image, &outputs);
+    }
+
+    /// Takes the torque of a cycle into the load.
+    #[allow(clippy::cast_precision_loss, reason = "some milliseconds")]
+    fn smooth_load(&mut self, torque: Option<i16>, since_ns: u64) {
+        let now_r = torque.map_or(0.0, |torque| f64::from(torque).abs() * 1e-3);
+        let share = 1.0 - (-(since_ns as f64) / LOAD_NS).exp();
+        self.load_r += share * (now_r - self.load_r);
+    }
+
+    /// What it is told. Where it is not led in position it is told where it is, so that it stays there when
+    /// its mode becomes that.
+    fn outputs(&self, control: u16) -> SpindleOutputs {
+        let (mode, place) = match self.phase {
+            Phase::Orienting(Some(way)) => (CYCLIC_POSITION, way.target()),
+            Phase::Orienting(None) => (CYCLIC_POSITION, self.said.place),
+            _ => (self.settings().mode.code(), self.said.place),
+        };
+        SpindleOutputs {
+            control,
+            mode,
+            velocity: self.settings().counts(self.told_rpm),
+            place,
+        }
     }
 
     /// Its drive reports a fault.
@@ -170,12 +225,12 @@ impl SpindleDrive {
         match self.phase {
             Phase::Off => {
                 self.told_rpm = 0.0;
-                if self.wanted_rpm != 0.0 && cycle.is_present {
+                if self.is_to_work() && cycle.is_present {
                     self.phase = Phase::Enabling(cycle.now_ns);
                 }
                 DISABLE_VOLTAGE
             }
-            Phase::Enabling(_) if self.wanted_rpm == 0.0 && !is_on => {
+            Phase::Enabling(_) if !self.is_to_work() && !is_on => {
                 self.phase = Phase::Off;
                 DISABLE_VOLTAGE
             }
@@ -193,13 +248,17 @@ impl SpindleDrive {
                 }
                 way_to_power(state)
             }
-            Phase::Turning if !is_on && cycle.is_present => {
+            Phase::Turning | Phase::Orienting(_) if !is_on && cycle.is_present => {
                 self.told_rpm = 0.0;
                 self.fail(0);
                 tell(Event::SpindleWithoutPower(state));
                 DISABLE_VOLTAGE
             }
             Phase::Turning => self.turn(since_ns),
+            Phase::Orienting(way) => {
+                self.orient(way, since_ns);
+                ENABLE_OPERATION
+            }
             Phase::Failed => {
                 self.told_rpm = 0.0;
                 if cycle.resets {
@@ -226,9 +285,54 @@ impl SpindleDrive {
         }
     }
 
+    /// Whether it is to turn, or to stand at an angle.
+    fn is_to_work(&self) -> bool {
+        self.wanted_rpm != 0.0 || self.angle.is_some()
+    }
+
+    /// Goes its way to an angle, or to rest where it is to stand at none any more.
+    #[allow(clippy::cast_precision_loss, reason = "some milliseconds")]
+    fn orient(&mut self, way: Option<Orienting>, since_ns: u64) {
+        let (Some(guide), true) = (self.settings().guide(), self.is_present) else {
+            return;
+        };
+        let is_led = self.said.mode == CYCLIC_POSITION;
+        let (Some(mut way), true) = (way, is_led) else {
+            self.phase = match self.angle {
+                Some(angle) if is_led => {
+                    Phase::Orienting(Some(Orienting::begin(&guide, self.said.place, angle)))
+                }
+                Some(_) => Phase::Orienting(None),
+                None => Phase::Turning,
+            };
+            return;
+        };
+        let rests = way.step(&guide, since_ns as f64 * 1e-9, self.angle);
+        self.phase = if rests && self.angle.is_none() {
+            Phase::Turning
+        } else {
+            Phase::Orienting(Some(way))
+        };
+    }
+
+    /// Whether it stands at the angle that it is to stand at.
+    fn is_at_angle(&self) -> bool {
+        let Phase::Orienting(Some(way)) = self.phase else {
+            return false;
+        };
+        let guide = self.settings().guide();
+        way.has_arrived() && guide.is_some_and(|guide| way.is_near(&guide, self.said.place))
+    }
+
     /// Follows its ramp, and gives its power back when it is to stand and stands.
     #[allow(clippy::cast_precision_loss, reason = "some milliseconds")]
     fn turn(&mut self, since_ns: u64) -> u16 {
+        let is_turned = self.settings().orientation.is_some();
+        if is_turned && self.said.mode != self.settings().mode.code() {
+            // Its drive comes from position, where it stands.
+            self.told_rpm = 0.0;
+            return ENABLE_OPERATION;
+        }
         let step = self.settings().ramp_rpm_per_s * since_ns as f64 * 1e-9;
         let apart = self.wanted_rpm - self.told_rpm;
         self.told_rpm += apart.clamp(-step, step);
@@ -238,6 +342,11 @@ impl SpindleDrive {
                 .near_ns
                 .is_some_and(|since| self.last_ns >= since + SETTLED_NS)
         {
+            if self.angle.is_some() {
+                self.near_ns = None;
+                self.phase = Phase::Orienting(None);
+                return ENABLE_OPERATION;
+            }
             self.phase = Phase::Off;
             return SHUTDOWN;
         }
@@ -252,7 +361,10 @@ impl SpindleDrive {
             self.settings().near_rpm(self.wanted_rpm)
         };
         let is_led = (self.told_rpm - self.wanted_rpm).abs() <= 0.0 && is_reachable;
-        let is_near = (self.actual_rpm - self.wanted_rpm).abs() <= near_rpm;
+        let is_near = match self.phase {
+            Phase::Orienting(_) => self.is_at_angle(),
+            _ => (self.actual_rpm - self.wanted_rpm).abs() <= near_rpm,
+        };
         if is_led && is_near && self.is_present {
             self.near_ns.get_or_insert(now_ns);
         } else {
@@ -267,6 +379,7 @@ impl SpindleDrive {
             return;
         }
         feedback.spindle_v = self.actual_rpm / 60.0;
+        feedback.spindle_load = self.load_r;
         let is_settled = self
             .near_ns
             .is_some_and(|since| self.last_ns >= since + SETTLED_NS)
@@ -276,11 +389,17 @@ impl SpindleDrive {
             feedback.spindle_flags |= if is { flag.0 } else { 0 };
         };
         set(SpindleFlags::SPEED, true);
+        set(SpindleFlags::LOAD, self.settings().tells_load);
         set(
             SpindleFlags::AT_SPEED,
             is_settled && !stands && self.phase == Phase::Turning,
         );
         set(SpindleFlags::STOPPED, is_settled && stands);
+        let is_held = matches!(self.phase, Phase::Orienting(Some(_)));
+        set(
+            SpindleFlags::ORIENTED,
+            is_settled && is_held && self.angle.is_some(),
+        );
         set(SpindleFlags::FAULT, self.failed.is_some());
     }
 }

@@ -1,5 +1,6 @@
 //! The settings of a spindle on a drive in velocity mode (CiA 402).
 
+use super::orienting::{Guide, OrientationSettings};
 use crate::entry::Mapping;
 
 /// The mode in which the drive of a spindle takes its speed.
@@ -68,6 +69,10 @@ pub struct SpindleSettings {
     pub ramp_rpm_per_s: f64,
     /// How near to its speed it is at speed, as a part of it, > 0.
     pub at_speed_r: f64,
+    /// How it is turned to an angle; `None` if it is not. It takes cyclic velocity.
+    pub orientation: Option<OrientationSettings>,
+    /// Its drive tells its torque (0x6077), thousandths of the rated one.
+    pub tells_load: bool,
     /// Who says what is in its process data.
     pub mapping: Mapping,
 }
@@ -112,17 +117,28 @@ impl SpindleSettings {
         (self.at_speed_r * rpm.abs()).max(self.still_rpm())
     }
 
+    /// How the way to an angle is led, where it is turned to one.
+    pub(super) fn guide(&self) -> Option<Guide> {
+        Some(Guide {
+            settings: self.orientation?,
+            is_inverted: self.is_inverted,
+            ramp_rpm_per_s: self.ramp_rpm_per_s,
+        })
+    }
+
     /// What is mapped: outputs and inputs, index, subindex and bits of each.
-    pub(crate) fn entries(&self) -> ([u32; 3], [u32; 4]) {
+    pub(crate) fn entries(&self) -> (Vec<u32>, Vec<u32>) {
         let entry = |(index, bits): (u16, u32)| u32::from(index) << 16 | bits;
-        (
-            [0x6040_0010, entry(self.mode.target()), 0x6060_0008],
-            [
-                0x6041_0010,
-                entry(self.mode.actual()),
-                0x6061_0008,
-                0x603f_0010,
-            ],
-        )
+        let mut outputs = vec![0x6040_0010, entry(self.mode.target()), 0x6060_0008];
+        let actual = entry(self.mode.actual());
+        let mut inputs = vec![0x6041_0010, actual, 0x6061_0008, 0x603f_0010];
+        if self.orientation.is_some() {
+            outputs.push(0x607a_0020);
+            inputs.push(0x6064_0020);
+        }
+        if self.tells_load {
+            inputs.push(0x6077_0010);
+        }
+        (outputs, inputs)
     }
 }

@@ -159,6 +159,8 @@ impl Terminals {
             let cycle = SpindleCycle {
                 now_ns,
                 wanted_rpm: self.outputs.spindle_rpm(),
+                programmed_rpm: self.outputs.programmed_rpm(),
+                angle: self.outputs.spindle_angle(),
                 is_present: is_in_op,
                 is_heard: self.short == 0,
                 resets,

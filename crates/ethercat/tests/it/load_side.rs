@@ -30,6 +30,7 @@ fn encoder(used: EncoderUse, home_offset: Option<f64>) -> JointEncoderSettings {
         counts_per_unit: LOAD,
         is_inverted: true,
         home_offset,
+        is_unsigned: false,
         used,
         apart: 0.1,
     }

@@ -25,6 +25,7 @@ mod machine;
 mod maps;
 mod matrix;
 mod modulo;
+mod orientation;
 mod probing;
 mod segments;
 mod spindle;

@@ -14,7 +14,7 @@ use glidepath_ethercat::{
 use glidepath_interpolator::{AnswerSource, MCodeWait};
 use glidepath_link::{Command, MachineState, Setpoint, SpindleFlags};
 
-const SPINDLE: usize = 5;
+pub(crate) const SPINDLE: usize = 5;
 /// As many as 0x60FF and 0x606C have in a revolution.
 const COUNTS: f64 = 60_000.0;
 const CUT: &str = "G21 G90 G64 P0.02 F3000\nS6000 M3\nG1 X10\nS3000 M4\nG1 X0\nM5\nG1 Y1\nM2\n";
@@ -32,11 +32,13 @@ fn settings(mode: SpindleMode) -> SpindleSettings {
         max_rpm: 8000.0,
         ramp_rpm_per_s: 10_000.0,
         at_speed_r: 0.02,
+        orientation: None,
+        tells_load: false,
         mapping: Mapping::Written,
     }
 }
 
-fn setup(mode: SpindleMode) -> Setup {
+pub(crate) fn setup(mode: SpindleMode) -> Setup {
     let mut setup = Setup::absolute(2_000_000);
     setup.emulated.extend([
         Emulated::terminal("COUPLER", ClockKind::Bits64),
@@ -97,6 +99,8 @@ enum Upset {
     /// The spindle's drive reports a fault, which is reset later.
     Fault(u16),
     Pause,
+    /// The operator sets its override.
+    Override(f64),
     /// A device is unplugged for a while.
     Unplugged(usize),
     /// A drive of a joint falls out of OP.
@@ -112,6 +116,8 @@ struct Cutting {
     done: Option<u64>,
     /// Speed (rev/min) and flags that were told with each setpoint, by its number.
     told: Vec<(u64, f64, SpindleFlags)>,
+    /// Its load as status and feedback had it then.
+    loads: Vec<(f64, f64)>,
     fault: Option<String>,
     outputs: Vec<bool>,
     resets: bool,
@@ -128,6 +134,7 @@ impl Cutting {
             began: None,
             done: None,
             told: Vec::new(),
+            loads: Vec::new(),
             fault: None,
             outputs: Vec::new(),
             resets: false,
@@ -145,6 +152,9 @@ impl Cutting {
             Upset::Fault(code) => {
                 segment.inject(SPINDLE, InjectedFault::Fault(code), hands.now_ns);
             }
+            Upset::Override(ratio) => {
+                hands.wants.command = Some(Command::SpindleOverride(ratio));
+            }
             Upset::Pause => hands.wants.pause = Some(15),
             Upset::Unplugged(device) => segment.unplug(device..device + 1, true, hands.now_ns),
             Upset::DriveLost => segment.inject(1, InjectedFault::Drop(0x1a), hands.now_ns),
@@ -157,6 +167,8 @@ impl Case for Cutting {
         if let (Some(said), Some(last)) = (hands.feedback, hands.last) {
             let flags = SpindleFlags(said.spindle_flags);
             self.told.push((last.number, 60.0 * said.spindle_v, flags));
+            let status = hands.status.map_or(0.0, |status| status.spindle_load);
+            self.loads.push((status, said.spindle_load));
         }
         self.runs = hands.state() == Some(MachineState::Running);
         let (state, rested) = (hands.state(), hands.tick > self.asked + 25);
@@ -318,6 +330,70 @@ fn an_abort_stops_it_along_its_ramp() {
     assert!(speeds[last].1.abs() < 45.0, "{:?}", speeds[last]);
     // Outputs of programs stay.
     assert_eq!(cutting.outputs, [true]);
+}
+
+#[test]
+fn it_turns_as_fast_as_the_operator_has_it_unless_a_program_does_not_allow_that() {
+    const LOCKED: &str = "G21 G90 G64 P0.02 F1200\nM49\nS6000 M3\nM62 P5\nG1 X50\nM2\n";
+    for (program, ratio, wanted) in [
+        (LONG, 0.8, 4800.0),
+        (LONG, 1.2, 7200.0),
+        // As far as the drive goes: 8000 rev/min.
+        (LONG, 1.5, 8000.0),
+        (LOCKED, 0.8, 6000.0),
+        // The machine does not allow it.
+        (LONG, 1.6, 6000.0),
+    ] {
+        let mut setup = setup(SpindleMode::CyclicVelocity);
+        setup.spindle_override = [0.5, 1.5];
+        let mut cutting = Cutting::new(program, Upset::Override(ratio));
+        let (outcome, speeds) = spun(&setup, &mut cutting);
+        let mut setpoints = outcome.setpoints.iter();
+        let last = setpoints.find(|s| s.position[0] > 30.0).unwrap();
+        let rpm = speed_at(&speeds, last.apply_ns + setup.bus.delay_ns);
+        assert!((rpm - wanted).abs() < 10.0, "{program} {ratio}: {rpm}");
+        for pair in speeds.windows(11) {
+            let t = (pair[10].0 - pair[0].0) as f64 * 1e-9;
+            assert!((pair[10].1 - pair[0].1).abs() / t < 10_500.0);
+        }
+        let flags = cutting
+            .told
+            .iter()
+            .rfind(|(number, ..)| *number == last.number);
+        assert!(flags.is_some_and(|(.., flags)| flags.contains(SpindleFlags::AT_SPEED)));
+    }
+}
+
+#[test]
+fn its_load_is_told() {
+    let mut setup = setup(SpindleMode::CyclicVelocity);
+    if let Some(spindle) = &mut setup.terminals[1].spindle {
+        spindle.tells_load = true;
+    }
+    let mut cutting = Cutting::new(CUT, Upset::Nothing);
+    let (outcome, _) = spun(&setup, &mut cutting);
+    assert_eq!(outcome.allocations, 0);
+    // Its ramp takes half of what the motor has; at its speed it takes nothing.
+    let most = cutting
+        .loads
+        .iter()
+        .map(|(_, load)| *load)
+        .fold(0.0, f64::max);
+    assert!((most - 0.5).abs() < 0.02, "{most}");
+    let at_speed = cutting.told.iter().zip(&cutting.loads);
+    let steady = at_speed.filter(|((.., rpm, flags), _)| {
+        assert!(flags.contains(SpindleFlags::LOAD));
+        (*rpm - 6000.0).abs() < 1.0
+    });
+    let least = steady.map(|(_, (_, load))| *load).fold(1.0, f64::min);
+    assert!(least < 0.05, "{least}");
+    // The status has it from there.
+    let seen = cutting
+        .loads
+        .iter()
+        .map(|(status, _)| *status)
+        .fold(0.0, f64::max);
+    assert!((seen - most).abs() < 0.05, "{seen}");
 }
 
 #[test]

@@ -20,6 +20,7 @@ use glidepath_program::{Event, Item, ItemKind};
 
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
+use crate::execute::auxiliary::orientation::Orientation;
 use crate::execute::cycle_words::name;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
@@ -140,7 +141,7 @@ impl Interpreter {
         [r, top, clear]: [f64; 3],
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        self.push(out, ItemKind::Event(Event::MCode(19)));
+        self.tell_orientation(Orientation::OWN, out);
         self.pass_bore(block, words, r, out)?;
         let mut place = self.state.offsets.to_program(self.state.position);
         place[2] = top;
@@ -199,7 +200,7 @@ impl Interpreter {
         if words.dwell_s > 0.0 {
             self.push(out, ItemKind::Dwell(words.dwell_s));
         }
-        self.push(out, ItemKind::Event(Event::MCode(19)));
+        self.tell_orientation(Orientation::OWN, out);
         self.pass_bore(block, words, clear, out)
     }
 }

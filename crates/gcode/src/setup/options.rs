@@ -68,6 +68,9 @@ pub struct Options {
     pub probing_v: Option<f64>,
     /// What threads need (G33); `None`: nobody knows the angle of the spindle, and they are errors.
     pub threading: Option<Threading>,
+    /// The spindle turns to the angle that a program gives it (M19 R), and stands there. Without it M19 is a
+    /// place that the spindle knows by itself, or nothing but a stop.
+    pub orients: bool,
     /// The axis that the spindle is where it does not turn; `None`: it is none.
     pub spindle_axis: Option<SpindleAxis>,
     /// Whether the feed follows an input of the machine (M52).
@@ -204,6 +207,7 @@ impl Default for Options {
             connections: Connections::None,
             probing_v: None,
             threading: None,
+            orients: false,
             spindle_axis: None,
             adaptive_feed: AdaptiveFeed::None,
             tolerance_mm: 0.0,

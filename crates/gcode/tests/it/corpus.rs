@@ -153,6 +153,7 @@ fn options(diameter_mm: f64) -> Options {
     Options {
         tools: Some(Arc::new(tools)),
         connections: Connections::Simulated,
+        orients: true,
         threading: Some(Threading::new(
             Limits::uniform(200.0, 2_000.0, 40_000.0),
             0.004,

@@ -56,6 +56,7 @@ mod reference;
 mod saved_state;
 mod shop_programs;
 mod siemens;
+mod spindle_angle;
 mod splines;
 mod subroutine_files;
 mod support;

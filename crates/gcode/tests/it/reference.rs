@@ -259,9 +259,13 @@ const POCKETS: &str = "tools have no pockets here";
 #[test]
 fn every_word_that_linuxcnc_reads_is_read_or_listed() {
     let tools = ToolTable::parse(b"T1 P1 Z0 D2").expect("a tool table");
+    let mut waits_for_the_spindle = glidepath_gcode::MCodes::default();
+    waits_for_the_spindle.declare(19, 19);
     let options = Options {
         tools: Some(Arc::new(tools)),
         connections: glidepath_gcode::Connections::Simulated,
+        orients: true,
+        m_codes: Arc::new(waits_for_the_spindle),
         threading: Some(Threading::new(
             Limits::uniform(200.0, 2_000.0, 40_000.0),
             0.004,

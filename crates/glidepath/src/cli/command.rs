@@ -128,11 +128,11 @@ pub enum CliCommand {
     /// Turn single block on or off: rest at the end of every block; `resume` or `step` continues
     #[command(after_help = "Example: glidepath single-block on")]
     SingleBlock(SingleBlockArgs),
-    /// Set the override of the feed, of rapids or of jogs
+    /// Set the override of the feed, of rapids, of jogs or of the spindle
     #[command(
         after_help = "Examples: glidepath override 80 · glidepath override -50 · \
                             glidepath override --rapid 25 · \
-                            glidepath override --jog 10"
+                            glidepath override --jog 10 · glidepath override --spindle 110"
     )]
     Override(OverrideArgs),
     /// Move axes by hand, by steps or by the keys of the terminal

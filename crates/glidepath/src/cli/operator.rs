@@ -69,6 +69,9 @@ pub struct OverrideArgs {
     /// Percent of the speed of jogs, 0 to 100
     #[arg(long, value_name = "PERCENT", value_parser = rapid_percent, group = "factor")]
     pub jog: Option<f64>,
+    /// Percent of the programmed speed of the spindle, within `override_min` and `override_max` of [spindle]
+    #[arg(long, value_name = "PERCENT", value_parser = spindle_percent, group = "factor")]
+    pub spindle: Option<f64>,
     /// The interpolator that is meant.
     #[command(flatten)]
     pub operator: OperatorArgs,
@@ -220,6 +223,10 @@ fn percent(text: &str) -> Result<f64, &'static str> {
 
 fn rapid_percent(text: &str) -> Result<f64, &'static str> {
     percent_from(0.0, 100.0, text).ok_or("give a number from 0 to 100")
+}
+
+fn spindle_percent(text: &str) -> Result<f64, &'static str> {
+    percent_from(0.0, 200.0, text).ok_or("give a number from 0 to 200")
 }
 
 fn percent_from(least: f64, most: f64, text: &str) -> Option<f64> {

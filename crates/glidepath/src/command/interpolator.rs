@@ -185,6 +185,7 @@ pub(super) fn settings(config: &MachineConfig, best_effort: bool) -> Config {
         superposition: config.superposition,
         m_code_waits: config.m_code_waits(),
         stops: config.stops,
+        spindle_override: config.spindle_override,
         tap_overtravel: config
             .spindle
             .map_or(TAP_OVERTRAVEL, |spindle| spindle.overtravel),

@@ -9,7 +9,9 @@ use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::report::grouped;
-use glidepath_link::mirror::{Gap, Mirror, MirrorCounts, MirrorError, MirrorSettings, obstacle};
+use glidepath_link::mirror::{
+    Gap, Mirror, MirrorCounts, MirrorError, MirrorNote, MirrorSettings, obstacle,
+};
 use glidepath_link::{Ipc, LinkConfig};
 use serde_json::json;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -26,7 +28,7 @@ const ENDING: Duration = Duration::from_millis(600);
 /// What the mirror tells.
 enum News {
     Open,
-    Lost(Gap),
+    Noted(MirrorNote),
     Ended(Result<MirrorCounts, MirrorError>),
 }
 
@@ -61,7 +63,7 @@ fn work(link: &LinkConfig, settings: &MirrorSettings, ending: &Interrupt, news: 
         let link = Ipc::connect(link)?;
         let mut mirror = Mirror::open(settings)?;
         tell(News::Open);
-        mirror.relay(&link, ending.flag(), &mut |gap| tell(News::Lost(gap)))
+        mirror.relay(&link, ending.flag(), &mut |note| tell(News::Noted(note)))
     };
     tell(News::Ended(mirrored()));
 }
@@ -83,7 +85,7 @@ fn attend(
                      for looking on, never for drives"
                 ));
             }
-            Ok(News::Lost(gap)) => output::note(&lost(gap)),
+            Ok(News::Noted(note)) => output::note(&noted(note)),
             Ok(News::Ended(ended)) => return Ok(Some(ended?)),
             Err(RecvTimeoutError::Disconnected) => return Err(Failure::Thread("the mirror")),
             Err(RecvTimeoutError::Timeout) => {}
@@ -100,6 +102,16 @@ fn attend(
                 obstacle: obstacle(settings.root.as_deref()),
             }));
         }
+    }
+}
+
+fn noted(note: MirrorNote) -> String {
+    match note {
+        MirrorNote::Lost(gap) => lost(gap),
+        MirrorNote::Short(error) => format!(
+            "mirror: readers that came have no memory: {error}; the mirror goes on without, and may end by SIGBUS"
+        ),
+        MirrorNote::Ample => "mirror: its readers have their memory again".to_owned(),
     }
 }
 

@@ -126,7 +126,9 @@ pub(super) fn overrides(args: &OverrideArgs, config: &MachineConfig) -> Result<E
     let feed = args.percent.map(|p| Command::FeedOverride(p / 100.0));
     let rapid = args.rapid.map(|p| Command::RapidOverride(p / 100.0));
     let jog = args.jog.map(|p| Command::JogOverride(p / 100.0));
-    let given: Vec<Command> = feed.into_iter().chain(rapid).chain(jog).collect();
+    let spindle = args.spindle.map(|p| Command::SpindleOverride(p / 100.0));
+    let given = feed.into_iter().chain(rapid).chain(jog).chain(spindle);
+    let given: Vec<Command> = given.collect();
     commands(&args.operator, config, "override", &given, |_, _| {
         Ok(Effect::Reached)
     })

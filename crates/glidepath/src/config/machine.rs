@@ -56,6 +56,8 @@ pub struct MachineConfig {
     pub probe: Option<ProbeConfig>,
     /// The spindle, if programs can follow its angle, or turn it as an axis.
     pub spindle: Option<SpindleConfig>,
+    /// The least and the highest spindle override that an operator may set, ratios.
+    pub spindle_override: [f64; 2],
     /// What slows programs down besides the override, if anything does.
     pub adaptive_feed: Option<AdaptiveFeed>,
     /// What moves an axis in addition to programs, if anything does: its share of the axis' limits, and its range of
@@ -335,6 +337,7 @@ impl MachineConfig {
                     spindle_a: spindle.acceleration,
                     overtravel: spindle.overtravel,
                 }),
+            orients: self.spindle.is_some_and(|spindle| spindle.orientation),
             spindle_axis: self.spindle.and_then(|spindle| {
                 Some(SpindleAxis {
                     axis: spindle.axis?,

@@ -199,6 +199,9 @@ pub(super) struct RawProbe {
 #[serde(deny_unknown_fields, default)]
 pub(super) struct RawSpindle {
     pub(super) encoder: Optional<bool>,
+    pub(super) orientation: Optional<bool>,
+    pub(super) override_min: Optional<f64>,
+    pub(super) override_max: Optional<f64>,
     pub(super) axis: Optional<String>,
     pub(super) rigid_tapping: Optional<bool>,
     pub(super) acceleration: Optional<f64>,

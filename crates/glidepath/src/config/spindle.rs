@@ -2,11 +2,13 @@
 
 use glidepath_geometry::Axis;
 
-/// A spindle whose angle is known, or which is an axis.
+/// A spindle whose angle is known, which is turned to an angle, or which is an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpindleConfig {
     /// Its angle is known.
     pub encoder: bool,
+    /// It turns to an angle, and stands there (M19 R).
+    pub orientation: bool,
     /// The axis that its drive follows while M3 and M4 do not turn it.
     pub axis: Option<Axis>,
     /// G84 and G74 tap rigidly.

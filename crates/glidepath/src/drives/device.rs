@@ -43,6 +43,8 @@ struct Devices<'j> {
     joints: usize,
     /// Joints whose drives look for their home by themselves.
     homes_itself: Vec<usize>,
+    /// Joints that turn on and on.
+    turns_on: Vec<usize>,
     claims: Claims,
     /// Where each of them is in the file, and its inputs and outputs.
     places: Vec<Place>,
@@ -63,6 +65,10 @@ pub(super) fn devices(
         joints,
         homes_itself: (drives.iter())
             .filter(|(drive, _)| drive.homing.is_some())
+            .map(|(drive, _)| drive.joint)
+            .collect(),
+        turns_on: (drives.iter())
+            .filter(|(drive, _)| drive.is_modulo)
             .map(|(drive, _)| drive.joint)
             .collect(),
         claims: Claims::default(),

@@ -44,6 +44,7 @@ pub(super) struct RawJointEncoder {
     #[serde(default)]
     pub(super) invert: bool,
     pub(super) home_offset: Optional<f64>,
+    pub(super) signed: Optional<bool>,
     pub(super) apart: Spanned<f64>,
 }
 
@@ -72,6 +73,19 @@ pub(super) struct RawSpindle {
     pub(super) invert: bool,
     #[serde(default)]
     pub(super) map: RawMap,
+    #[serde(default)]
+    pub(super) load: bool,
+    pub(super) orientation: Optional<RawOrientation>,
+}
+
+/// How the spindle is turned to an angle.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawOrientation {
+    pub(super) counts_per_rev: Spanned<i64>,
+    pub(super) zero: Optional<f64>,
+    pub(super) max_rpm: Spanned<f64>,
+    pub(super) window: Optional<f64>,
 }
 
 /// Who says what is in the process data of a drive.

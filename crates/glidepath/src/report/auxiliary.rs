@@ -2,14 +2,21 @@
 
 use glidepath_link::{Auxiliary, Coolant, SpindleState};
 
-/// The spindle: `M3 S600`, `M5`.
+/// The spindle: `M3 S600`, `M3 S600 at 80 %`, `M5`.
 #[must_use]
 pub fn spindle_words(record: &Auxiliary) -> String {
     let speed = record.spindle_speed;
+    let percent = match (100.0 * record.spindle_override).round() {
+        100.0 => String::new(),
+        percent => format!(" at {percent} %"),
+    };
     match record.spindle() {
-        Ok(SpindleState::Clockwise) => format!("M3 S{speed}"),
-        Ok(SpindleState::Counterclockwise) => format!("M4 S{speed}"),
-        Ok(SpindleState::Oriented) => "M19".to_owned(),
+        Ok(SpindleState::Clockwise) => format!("M3 S{speed}{percent}"),
+        Ok(SpindleState::Counterclockwise) => format!("M4 S{speed}{percent}"),
+        Ok(SpindleState::Oriented) => match record.orientation() {
+            Some((deg, _)) => format!("M19 R{deg}"),
+            None => "M19".to_owned(),
+        },
         _ => "M5".to_owned(),
     }
 }

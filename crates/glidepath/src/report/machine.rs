@@ -176,6 +176,12 @@ fn spindle_rpm(status: &Status) -> Option<f64> {
     is_measured.then_some(60.0 * status.spindle_v + 0.0)
 }
 
+/// Load of the spindle as a part of its rated torque; nothing where nobody measures it.
+fn spindle_load(status: &Status) -> Option<f64> {
+    let is_measured = status.spindle().contains(SpindleFlags::LOAD);
+    is_measured.then_some(status.spindle_load)
+}
+
 /// What a status says about drives and joints.
 pub(super) fn machine_object(status: &Status, asked: &AwaitedEvent) -> Map<String, Value> {
     let object = json!({
@@ -195,6 +201,8 @@ pub(super) fn machine_object(status: &Status, asked: &AwaitedEvent) -> Map<Strin
         "following_error": by_joint(status, &status.following_error),
         "following_peak": by_joint(status, &status.following_peak),
         "spindle_rpm": spindle_rpm(status),
+        "spindle_load": spindle_load(status),
+        "spindle_override": status.spindle_override,
         "spindle_at_speed": status.spindle().contains(SpindleFlags::AT_SPEED),
         "awaited": awaited(status, asked),
     });
@@ -234,6 +242,9 @@ pub(super) fn power_text(status: &Status) -> String {
     }
     if let Some(rpm) = spindle_rpm(status) {
         let _ = write!(text, ", spindle at {:.0} rev/min", rpm.round() + 0.0);
+    }
+    if let Some(load) = spindle_load(status) {
+        let _ = write!(text, ", its load {:.0} %", 100.0 * load);
     }
     text
 }

@@ -280,10 +280,11 @@ pub fn status_text(instance: &str, status: &Status, beside: &Beside) -> String {
     );
     let _ = writeln!(
         text,
-        "  override      feed {:.0} %, rapid {:.0} %, jog {:.0} % (executed {:.0} %)",
+        "  override      feed {:.0} %, rapid {:.0} %, jog {:.0} %, spindle {:.0} % (executed {:.0} %)",
         status.feed_override * 100.0,
         status.rapid_override * 100.0,
         status.jog_override * 100.0,
+        status.spindle_override * 100.0,
         status.effective_override * 100.0
     );
     if let Some(adaptive) = adaptive_text(status) {

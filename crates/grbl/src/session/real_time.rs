@@ -27,8 +27,9 @@ impl Session {
             RealTime::Feed(change) => self.overrides.change_feed(change, now, &mut self.acts),
             RealTime::Rapid(percent) => self.overrides.set_rapid(percent, now, &mut self.acts),
             RealTime::Spindle(change) => {
-                self.overrides.change_spindle(change);
-                self.tell_of_spindle();
+                let range = self.settings.spindle_override;
+                self.overrides
+                    .change_spindle(change, range, now, &mut self.acts);
             }
             RealTime::NotByHand => self.tell_of_spindle(),
             RealTime::Modes => {
@@ -41,7 +42,7 @@ impl Session {
 
     fn tell_of_spindle(&mut self) {
         if !core::mem::replace(&mut self.spindle_was_told, true) {
-            self.message("Spindle and coolant follow the lines: overrides of them have no effect");
+            self.message("Spindle and coolant follow the lines: they are not switched by hand");
         }
     }
 

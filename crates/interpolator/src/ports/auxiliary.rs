@@ -6,11 +6,15 @@ use crate::ports::tool_change::ToolChange;
 use crate::shared::config::stops::{StopCause, StopSettings};
 use crate::shared::m_code_waits::MCodeWaits;
 use crate::shared::message::{Awaited, TickReport};
-use glidepath_link::{Auxiliary, CodeWords, EventId, EventRecord};
+use glidepath_link::{Auxiliary, CodeWords, EndOfEpoch, EventId, EventRecord};
 use glidepath_program::Event;
 
 /// The change of a tool.
 const CHANGE: Event = Event::MCode(6);
+
+/// M48 and M49: a program lets the operator have the overrides, or does not.
+const ALLOW: u32 = 48;
+const LOCK: u32 = 49;
 
 /// The record, and what it was when it was published last.
 #[derive(Debug)]
@@ -22,6 +26,11 @@ pub(crate) struct AuxiliaryBook {
     /// The tool change that is not answered yet.
     tool_change: Option<ToolChange>,
     stops: StopSettings,
+    /// What the operator makes of the speed of the spindle, and whether a program allows that (M48, M49).
+    spindle_override: f64,
+    is_locked: bool,
+    /// The program that ran last.
+    program: u64,
 }
 
 impl AuxiliaryBook {
@@ -29,13 +38,16 @@ impl AuxiliaryBook {
         Self {
             record: Auxiliary {
                 boot_id,
-                ..bytemuck::Zeroable::zeroed()
+                ..Auxiliary::default()
             },
             published: None,
             m_code_waits,
             words: CodeWordsBook::default(),
             tool_change: None,
             stops,
+            spindle_override: 1.0,
+            is_locked: false,
+            program: 0,
         }
     }
 
@@ -47,6 +59,35 @@ impl AuxiliaryBook {
         }
     }
 
+    /// The operator sets the override of the spindle.
+    pub(crate) fn set_spindle_override(&mut self, ratio: f64) {
+        self.spindle_override = ratio;
+        self.put_override();
+    }
+
+    /// The override of the spindle as the operator has set it.
+    pub(crate) const fn spindle_override(&self) -> f64 {
+        self.spindle_override
+    }
+
+    /// A program keeps the override from the operator until its end, or until another one runs.
+    pub(crate) fn watch_program(&mut self, program: u64, end: EndOfEpoch) {
+        let is_broken_off = matches!(end, EndOfEpoch::Aborted | EndOfEpoch::Faulted);
+        if self.is_locked && (is_broken_off || self.program != program) {
+            self.is_locked = false;
+            self.put_override();
+        }
+        self.program = program;
+    }
+
+    fn put_override(&mut self) {
+        self.record.spindle_override = if self.is_locked {
+            1.0
+        } else {
+            self.spindle_override
+        };
+    }
+
     /// Takes up what happens with a setpoint.
     pub(crate) fn note(&mut self, report: &TickReport) {
         let setpoint = &report.setpoint;
@@ -56,6 +97,12 @@ impl AuxiliaryBook {
                 self.tool_change = Some(change);
             }
             self.record.take(event);
+            if let Event::PassingCode(code @ (ALLOW | LOCK)) | Event::MCode(code @ (ALLOW | LOCK)) =
+                event
+            {
+                self.is_locked = code == LOCK;
+                self.put_override();
+            }
             self.words.note(setpoint, event);
             (self.record.epoch, self.record.sequence) = (setpoint.epoch, setpoint.sequence);
             self.record.line = setpoint.line;

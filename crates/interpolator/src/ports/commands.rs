@@ -26,6 +26,8 @@ pub(crate) struct CommandContext<'d, 'a> {
     pub(crate) jobs: &'d mut JobBook,
     pub(crate) frame_validator: &'d mut FrameValidator,
     pub(crate) ends: &'d mut PortsEnds<'a>,
+    /// The least and the highest spindle override.
+    pub(crate) spindle_override: [f64; 2],
     /// Something was passed on that may change what the machine does: the next report tells.
     pub(crate) is_ordered: bool,
 }
@@ -63,6 +65,20 @@ impl CommandContext<'_, '_> {
         command
     }
 
+    /// The override of the spindle, which no motion depends on: the auxiliary record has it.
+    fn override_spindle(&self, ratio: f64) -> (CommandOutcome, String) {
+        let [least, most] = self.spindle_override;
+        if (least..=most).contains(&ratio) {
+            return (Ok(()), String::new());
+        }
+        let [least, most, asked] = [least, most, ratio].map(|ratio| 100.0 * ratio);
+        let why = format!(
+            "a spindle override of {asked:.0} %: this machine allows {least:.0} to {most:.0} % (override_min \
+             and override_max of [spindle])"
+        );
+        (Err(CommandRefusal::Malformed), why)
+    }
+
     fn has_room(&self) -> bool {
         self.ends.room() >= ORDERS_PER_COMMAND
     }
@@ -98,6 +114,7 @@ impl CommandContext<'_, '_> {
                 }));
                 return done;
             }
+            Ok(Command::SpindleOverride(ratio)) => return self.override_spindle(ratio),
             Ok(command) => self.meant(command),
         };
         if command.sets_out() && self.jobs.was_stopped_after(request.asked_ns) {
@@ -241,6 +258,7 @@ fn precondition(
         | Command::Abort
         | Command::RapidOverride(_)
         | Command::JogOverride(_)
+        | Command::SpindleOverride(_)
         | Command::SingleBlock(_) => return None,
         Command::FeedOverride(ratio) if ratio >= 0.0 => return None,
         Command::FeedOverride(_) | Command::Reverse => {

@@ -65,6 +65,8 @@ pub(crate) struct Ports<'a> {
     /// Number of the setpoint after which an order was passed on that a job waits for.
     ordered_after: Option<u64>,
     boot_id: u64,
+    /// The least and the highest spindle override.
+    spindle_override: [f64; 2],
     status_due_ns: u64,
     clean_up_due_ns: u64,
     failing: bool,
@@ -106,6 +108,7 @@ impl<'a> Ports<'a> {
             jobs: JobBook::new(),
             ordered_after: None,
             boot_id,
+            spindle_override: config.spindle_override,
             status_due_ns: 0,
             clean_up_due_ns: 0,
             failing: false,

@@ -27,6 +27,7 @@ mod m_code_waits;
 mod matrix;
 mod probing;
 mod revolutions;
+mod spindle_override;
 mod stops;
 mod superposition;
 mod tapping;

@@ -221,6 +221,7 @@ impl Drives {
             | Command::Return
             | Command::Acknowledge { .. }
             | Command::JogOverride(_)
+            | Command::SpindleOverride(_)
             | Command::Reverse
             | Command::Forward
             | Command::Job { .. }

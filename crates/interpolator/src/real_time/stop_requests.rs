@@ -143,6 +143,7 @@ impl StopRequests {
             | Command::Unhome(_)
             | Command::Return
             | Command::JogOverride(_)
+            | Command::SpindleOverride(_)
             | Command::Job { .. }
             | Command::Acknowledge { .. } => {}
             Command::Hold => self.hold = is_open || self.is_prepared,

@@ -10,9 +10,10 @@
 
 use crate::real_time::drives::Drives;
 use crate::shared::m_code_waits::MOST_TOLD;
-use crate::shared::m_code_waits::{AnswerSource, MCodeWait};
+use crate::shared::m_code_waits::{AnswerSource, MCodeWait, ORIENTED};
 use crate::shared::message::Awaited;
 use glidepath_link::{EventId, EventKind, EventRecord, FaultCause, Setpoint};
+use glidepath_program::{CodeWord, Event};
 
 /// The outcome of a wait in a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,6 +31,9 @@ pub(crate) enum Outcome {
 pub(crate) struct Wait {
     standing: Option<Standing>,
     told: [Option<Told>; MOST_TOLD],
+    /// The Q word of the M code that comes next, and that of the last M19: how long it may take, s.
+    next_q: Option<f64>,
+    oriented_q: Option<f64>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -72,8 +76,13 @@ impl Wait {
             Some(told) => (awaited, told.outcome),
             None => (awaited, None),
         };
+        // An M code alone has a code for its value: whatever else is awaited is no M19.
+        let kind = awaited.event_kind;
+        let is_code = kind == EventKind::MCode.code() || kind == EventKind::Await.code();
+        let is_oriented = is_code && (awaited.event_value - f64::from(ORIENTED)).abs() < 0.5;
+        let q = self.oriented_q.filter(|_| is_oriented);
         self.standing = Some(Standing {
-            m_code_wait,
+            m_code_wait: m_code_wait.or_within(ORIENTED, q),
             awaited,
             ticks: 0,
             outcome,
@@ -93,6 +102,23 @@ impl Wait {
             told_by: setpoint.number,
             by_feedback: false,
         });
+    }
+
+    /// Takes note of the Q word of M19.
+    pub(crate) fn hear_word(&mut self, event: Event) {
+        match event {
+            Event::CodeWord {
+                word: CodeWord::Q,
+                value,
+            } => self.next_q = Some(value),
+            Event::MCode(code) => {
+                let q = self.next_q.take();
+                if code == ORIENTED {
+                    self.oriented_q = q;
+                }
+            }
+            _ => {}
+        }
     }
 
     fn tell(&mut self, awaited: Awaited) {

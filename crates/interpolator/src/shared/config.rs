@@ -163,6 +163,8 @@ pub struct Config {
     pub m_code_waits: MCodeWaits,
     /// What stops spindle and coolant together with the motion.
     pub stops: StopSettings,
+    /// The least and the highest spindle override, ratios.
+    pub spindle_override: [f64; 2],
     /// Revolutions for which a tap goes on at most from where the spindle is told to turn back, > 0.
     /// There it stops in its hole, with a fault.
     pub tap_overtravel: f64,
@@ -197,6 +199,7 @@ impl Config {
             feedback: None,
             m_code_waits: MCodeWaits::NONE,
             stops: StopSettings::default(),
+            spindle_override: [0.5, 1.2],
             tap_overtravel: TAP_OVERTRAVEL,
             forbid_system_calls: false,
         }

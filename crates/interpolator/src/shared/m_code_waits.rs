@@ -2,7 +2,7 @@
 
 use core::time::Duration;
 use glidepath_link::{Auxiliary, Setpoint, SetpointFrame, SpindleFlags};
-use glidepath_program::Event;
+use glidepath_program::{CodeWord, Event};
 
 /// Most rules of a machine.
 pub const MAX_M_CODE_WAITS: usize = 32;
@@ -87,6 +87,22 @@ pub struct MCodeWait {
     pub is_late: bool,
 }
 
+/// The M code at which the spindle is to stand at an angle; its Q word is how long that may take, s.
+pub(crate) const ORIENTED: u32 = 19;
+
+impl MCodeWait {
+    /// The same wait for a code, as long as the code's own Q word says where that is a time.
+    #[must_use]
+    pub(crate) fn or_within(self, code: u32, q: Option<f64>) -> Self {
+        let of_word = q.filter(|_| code == ORIENTED);
+        let own = of_word.and_then(|q| Duration::try_from_secs_f64(q).ok());
+        Self {
+            within: own.or(self.within),
+            ..self
+        }
+    }
+}
+
 /// All M codes that are waited for. A code that several rules are about obeys the first of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct MCodeWaits {
@@ -153,7 +169,9 @@ impl MCodeWaits {
     pub(crate) fn deadline_ns(&self, auxiliary: &Auxiliary, since_ns: u64) -> u64 {
         let within = match auxiliary.awaited_event() {
             Ok(Some(Event::MCode(code) | Event::Await(code))) => {
-                self.of(code).and_then(|m_code_wait| m_code_wait.within)
+                let q = auxiliary.awaited_words.get(CodeWord::Q);
+                let m_code_wait = self.of(code);
+                m_code_wait.and_then(|m_code_wait| m_code_wait.or_within(code, q).within)
             }
             _ => None,
         };

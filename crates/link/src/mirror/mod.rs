@@ -23,17 +23,20 @@ mod gap;
 mod obstacle;
 mod record;
 mod reserve;
+mod shortage;
 
 pub use error::MirrorError;
 pub use gap::Gap;
 pub use obstacle::obstacle;
 pub use record::{SetpointMirror, StatusMirror};
+pub use shortage::MirrorNote;
 
 use crate::{LinkError, Record as _, Transport};
 use copies::{Copies, Depth, Domain};
 use core::sync::atomic::{AtomicBool, Ordering};
 use gap::Gaps;
 use reserve::Reserved;
+use shortage::Shortage;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -72,6 +75,7 @@ pub struct Mirror {
     /// After the ports.
     domain: Domain,
     reserved: Reserved,
+    shortage: Shortage,
 }
 
 impl Mirror {
@@ -91,13 +95,14 @@ impl Mirror {
             statuses: domain.copies(&name("status"), Depth::STATUS)?,
             domain,
             reserved: Reserved::default(),
+            shortage: Shortage::default(),
         };
         mirror.reserved.take()?;
         Ok(mirror)
     }
 
     /// Hears an instance, and publishes what it hears, until `ending` is set. Tells of setpoints that
-    /// never came. The interpolator may end and start again meanwhile.
+    /// never came, and of memory that readers who came would need. The interpolator may end and start again meanwhile.
     ///
     /// # Errors
     ///
@@ -107,7 +112,7 @@ impl Mirror {
         &mut self,
         link: &dyn Transport,
         ending: &AtomicBool,
-        tell: &mut dyn FnMut(Gap),
+        tell: &mut dyn FnMut(MirrorNote),
     ) -> Result<MirrorCounts, MirrorError> {
         let mut setpoints = link.setpoint_source()?;
         let mut statuses = link.status_source()?;
@@ -122,7 +127,7 @@ impl Mirror {
                 }
                 if let Some(gap) = gaps.next(&setpoint) {
                     counts.lost += gap.count();
-                    tell(gap);
+                    tell(MirrorNote::Lost(gap));
                 }
                 self.setpoints.publish(SetpointMirror(setpoint))?;
                 counts.setpoints += 1;
@@ -138,21 +143,21 @@ impl Mirror {
             if chores.elapsed() >= CHORES_EVERY {
                 chores = Instant::now();
                 self.clean_up(link)?;
+                let note = self.shortage.next(self.reserved.take());
+                note.into_iter().for_each(&mut *tell);
             }
             std::thread::sleep(POLL);
         }
         Ok(counts)
     }
 
-    /// Frees what the dead hold on both sides, gives readers that came the last record, and takes the memory for them.
+    /// Frees what the dead hold on both sides, and gives readers that came the last record.
     fn clean_up(&mut self, link: &dyn Transport) -> Result<(), MirrorError> {
         link.clean_up_dead_peers()?;
         link.stands()?;
         self.domain.clean_up();
         self.setpoints.refresh()?;
         self.statuses.refresh()?;
-        // Of readers that came. Where there is no room now, it is tried again.
-        let _ = self.reserved.take();
         Ok(())
     }
 }

@@ -16,7 +16,7 @@ pub struct SetpointMirror(pub Setpoint);
 /// A copy of a [`Status`], byte for byte. Its type name has the version of that record.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.StatusMirror.v15")]
+#[type_name("glidepath.StatusMirror.v16")]
 pub struct StatusMirror(pub Status);
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 use super::check::{Fields, RecordError};
 use super::code::coded;
 use super::{CodeWords, EventId, Record, event};
-use glidepath_program::Event;
+use glidepath_program::{Event, OrientWay};
 use iceoryx2::prelude::ZeroCopySend;
 
 /// Analog outputs, as many as there are numbers for them in programs.
@@ -21,6 +21,30 @@ coded! {
         Counterclockwise = 2,
         /// Stand at a known angle (M19).
         Oriented = 3,
+    }
+}
+
+coded! {
+    /// The way of the spindle to the angle at which it is to stand (M19).
+    pub enum OrientTurn {
+        /// No angle was given: it is the spindle's own.
+        Own = 0,
+        /// The shorter one.
+        Shortest = 1,
+        /// Clockwise.
+        Clockwise = 2,
+        /// Counterclockwise.
+        Counterclockwise = 3,
+    }
+}
+
+impl From<OrientWay> for OrientTurn {
+    fn from(way: OrientWay) -> Self {
+        match way {
+            OrientWay::Shortest => Self::Shortest,
+            OrientWay::Clockwise => Self::Clockwise,
+            OrientWay::Counterclockwise => Self::Counterclockwise,
+        }
     }
 }
 
@@ -50,7 +74,7 @@ impl Coolant {
 /// subscriber gets the last one at once.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Auxiliary.v2")]
+#[type_name("glidepath.Auxiliary.v3")]
 pub struct Auxiliary {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -74,7 +98,8 @@ pub struct Auxiliary {
     pub line: u32,
     /// The words of the event that is awaited: those of [`CodeWords`] that it has.
     pub awaited_words: CodeWords,
-    /// Speed that the spindle is to have when it turns, rev/min.
+    /// Speed that the spindle is to have when it turns, rev/min, as the program gave it: times
+    /// `spindle_override`.
     pub spindle_speed: f64,
     /// Code of a [`SpindleState`].
     pub spindle: u32,
@@ -89,6 +114,15 @@ pub struct Auxiliary {
     pub digital_out: u64,
     /// Analog outputs, in whatever unit they have.
     pub analog_out: [f64; ANALOG_OUTPUTS],
+    /// The angle at which the spindle is to stand where it is to stand at one, degrees from 0 to 360,
+    /// rising as it turns clockwise; means something if `spindle_turn` says so.
+    pub spindle_angle: f64,
+    /// What the operator makes of its speed, a ratio; 1 where a program allows none (M49).
+    pub spindle_override: f64,
+    /// Code of an [`OrientTurn`]: whether a program gave that angle, and the way there.
+    pub spindle_turn: u32,
+    /// Must be zero.
+    pub reserved: u32,
 }
 
 impl Auxiliary {
@@ -99,6 +133,29 @@ impl Auxiliary {
     /// An unknown code.
     pub fn spindle(&self) -> Result<SpindleState, RecordError> {
         Fields(Self::NAME).code("spindle", self.spindle)
+    }
+
+    /// The speed that the spindle is to have when it turns, with its override, rev/min.
+    #[must_use]
+    pub fn spindle_rpm(&self) -> f64 {
+        self.spindle_speed * self.spindle_override
+    }
+
+    /// The angle at which the spindle is to stand, degrees, and the way there; `None` where it is to
+    /// stand at none, or at its own.
+    #[must_use]
+    pub fn orientation(&self) -> Option<(f64, OrientWay)> {
+        if self.spindle != SpindleState::Oriented.code() {
+            return None;
+        }
+        let turn = Fields(Self::NAME).code("spindle_turn", self.spindle_turn);
+        let way = match turn.ok()? {
+            OrientTurn::Own => return None,
+            OrientTurn::Shortest => OrientWay::Shortest,
+            OrientTurn::Clockwise => OrientWay::Clockwise,
+            OrientTurn::Counterclockwise => OrientWay::Counterclockwise,
+        };
+        Some((self.spindle_angle, way))
     }
 
     /// The coolants that are to be on.
@@ -121,6 +178,10 @@ impl Auxiliary {
         let before = *self;
         match event {
             Event::SpindleSpeed(speed) => self.spindle_speed = speed,
+            Event::SpindleAngle { deg, way } => {
+                self.spindle_angle = deg;
+                self.spindle_turn = OrientTurn::from(way).code();
+            }
             Event::SelectTool(tool) => self.prepared_tool = tool,
             Event::MCode(code) | Event::PassingCode(code) => self.take_m_code(code),
             Event::DigitalOutput { number, on } => {
@@ -151,10 +212,12 @@ impl Auxiliary {
             4 => self.spindle = SpindleState::Counterclockwise.code(),
             5 => self.spindle = SpindleState::Stopped.code(),
             19 => self.spindle = SpindleState::Oriented.code(),
-            // Tools are changed with the spindle at rest.
+            // Tools are changed with the spindle at rest; one that stands at an angle is held there.
             6 => {
                 self.tool = self.prepared_tool;
-                self.spindle = SpindleState::Stopped.code();
+                if self.spindle != SpindleState::Oriented.code() {
+                    self.spindle = SpindleState::Stopped.code();
+                }
             }
             7 => self.coolant |= Coolant::MIST.0,
             8 => self.coolant |= Coolant::FLOOD.0,
@@ -167,18 +230,25 @@ impl Auxiliary {
 impl Default for Auxiliary {
     /// As nothing was said yet.
     fn default() -> Self {
-        bytemuck::Zeroable::zeroed()
+        Self {
+            spindle_override: 1.0,
+            ..bytemuck::Zeroable::zeroed()
+        }
     }
 }
 
 impl Record for Auxiliary {
-    const NAME: &'static str = "glidepath.Auxiliary.v2";
+    const NAME: &'static str = "glidepath.Auxiliary.v3";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
         self.spindle()?;
         fields.flags("coolant", self.coolant, Coolant::KNOWN)?;
         fields.finite("spindle_speed", self.spindle_speed)?;
+        fields.override_ratio("spindle_override", self.spindle_override)?;
+        fields.range("spindle_angle", self.spindle_angle, 0.0, 360.0)?;
+        fields.code::<OrientTurn>("spindle_turn", self.spindle_turn)?;
+        fields.zero("reserved", self.reserved)?;
         self.awaited_words.check(Self::NAME)?;
         fields.all_finite("analog_out", &self.analog_out)?;
         self.awaited_event().map(|_| ())

@@ -52,6 +52,8 @@ coded! {
         Forward = 21,
         /// See [`Command::Job`].
         Job = 22,
+        /// See [`Command::SpindleOverride`].
+        SpindleOverride = 23,
     }
 }
 
@@ -109,6 +111,8 @@ pub enum Command {
     },
     /// Set the part of their speed that jogs have, a ratio from 0 to 1.
     JogOverride(f64),
+    /// Set the spindle override, a ratio of up to [`super::OVERRIDE_MAX`] and within what the machine allows.
+    SpindleOverride(f64),
     /// Go back along the path, at the override that is in force.
     Reverse,
     /// Go onward along the path.
@@ -153,6 +157,7 @@ impl Command {
             Self::Return => CommandKind::Return,
             Self::Acknowledge { .. } => CommandKind::Acknowledge,
             Self::JogOverride(_) => CommandKind::JogOverride,
+            Self::SpindleOverride(_) => CommandKind::SpindleOverride,
             Self::Tell => CommandKind::Tell,
             Self::Reverse => CommandKind::Reverse,
             Self::Forward => CommandKind::Forward,
@@ -238,7 +243,8 @@ impl CommandRequest {
         match command {
             Command::FeedOverride(ratio)
             | Command::RapidOverride(ratio)
-            | Command::JogOverride(ratio) => record.value = ratio,
+            | Command::JogOverride(ratio)
+            | Command::SpindleOverride(ratio) => record.value = ratio,
             Command::SingleBlock(on) => record.value = f64::from(u8::from(on)),
             Command::SetPosition { joint, position } => {
                 (record.joints, record.value) = (joint, position);
@@ -344,6 +350,10 @@ impl CommandRequest {
                 fields.range("value", self.value, 0.0, 1.0)?;
                 Command::JogOverride(self.value)
             }
+            CommandKind::SpindleOverride => {
+                fields.override_ratio("value", self.value)?;
+                Command::SpindleOverride(self.value)
+            }
         })
     }
 
@@ -378,6 +388,7 @@ impl CommandRequest {
                 | CommandKind::Return
                 | CommandKind::Acknowledge
                 | CommandKind::JogOverride
+                | CommandKind::SpindleOverride
                 | CommandKind::Tell
                 | CommandKind::Reverse
                 | CommandKind::Forward

@@ -8,7 +8,9 @@
 use super::check::{Fields, RecordError};
 use super::code::coded;
 use glidepath_geometry::AXES;
-use glidepath_program::{CodeWord, EVENTS_MOST, Event, PHASE_STEPS, TAP_DEPTHS_UM, TimedEvent};
+use glidepath_program::{
+    CodeWord, EVENTS_MOST, Event, OrientWay, PHASE_STEPS, TAP_DEPTHS_UM, TimedEvent,
+};
 use iceoryx2::prelude::ZeroCopySend;
 
 coded! {
@@ -46,6 +48,9 @@ coded! {
         Tap = 13,
         /// An M code that the motion passes without a rest.
         PassingCode = 14,
+        /// The angle of the spindle for the M19 that comes next; the value is the angle, degrees, and
+        /// the number the way there: 0 the shorter one, 1 clockwise, 2 counterclockwise.
+        SpindleAngle = 15,
     }
 }
 
@@ -63,7 +68,7 @@ pub struct EventRecord {
     pub offset_ns: u32,
     /// Code of an [`EventKind`].
     pub kind: u32,
-    /// Of an output: which; else 0.
+    /// Of an output: which; of an angle of the spindle: the way there; else 0.
     pub number: u32,
     /// Of a tapped hole: index of the axis; else 0.
     pub axis: u32,
@@ -83,6 +88,7 @@ impl EventRecord {
             Event::DigitalOutput { number: of, .. } | Event::AnalogOutput { number: of, .. } => {
                 number = of;
             }
+            Event::SpindleAngle { way, .. } => number = number_of(way),
             Event::Tap {
                 axis: of,
                 depth_um: deep,
@@ -112,8 +118,10 @@ impl EventRecord {
         fields.finite("value", self.value)?;
         let kind = fields.code::<EventKind>("kind", self.kind)?;
         let is_output = matches!(kind, EventKind::DigitalOutput | EventKind::AnalogOutput);
+        let has_way = kind == EventKind::SpindleAngle;
+        let most_number = if has_way { WAYS_MOST } else { u32::MAX };
         let fits = [
-            ("number", self.number, is_output, u32::MAX),
+            ("number", self.number, is_output || has_way, most_number),
             ("axis", self.axis, kind == EventKind::Tap, AXES_MOST),
             (
                 "depth_um",
@@ -201,10 +209,25 @@ const AXIS_BITS: u32 = 4;
 /// The longest way of a revolution, mm: beyond any machine.
 const PITCH_MOST_MM: f64 = 1e6;
 
+/// The highest number of a way to an angle.
+const WAYS_MOST: u32 = 2;
+/// An angle of the spindle, at most, degrees.
+const ANGLE_MOST: f64 = 360.0;
+
+/// The number of a way to an angle.
+const fn number_of(way: OrientWay) -> u32 {
+    match way {
+        OrientWay::Shortest => 0,
+        OrientWay::Clockwise => 1,
+        OrientWay::Counterclockwise => 2,
+    }
+}
+
 /// Kind and value of an event.
 fn kind_and_value(event: Event) -> (EventKind, f64) {
     match event {
         Event::SpindleSpeed(speed) => (EventKind::SpindleSpeed, speed),
+        Event::SpindleAngle { deg, .. } => (EventKind::SpindleAngle, deg),
         Event::SelectTool(tool) => (EventKind::SelectTool, f64::from(tool)),
         Event::MCode(code) => (EventKind::MCode, f64::from(code)),
         Event::PassingCode(code) => (EventKind::PassingCode, f64::from(code)),
@@ -233,6 +256,7 @@ pub(crate) fn encode(event: Option<Event>) -> (u32, f64) {
         Event::Synchronise { phase, .. } => phase,
         Event::Tap { axis, depth_um, .. } => axis | depth_um << AXIS_BITS,
         Event::DigitalOutput { number, .. } | Event::AnalogOutput { number, .. } => number,
+        Event::SpindleAngle { way, .. } => number_of(way),
         _ => 0,
     };
     (kind.code() | above << KIND_BITS, value)
@@ -252,6 +276,7 @@ pub(crate) fn decode(
             || kind == EventKind::AnalogOutput.code()
             || kind == EventKind::Synchronise.code()
             || kind == EventKind::Tap.code()
+            || kind == EventKind::SpindleAngle.code()
     };
     let lowest = kind & ((1 << KIND_BITS) - 1);
     // A number beside a kind that has none makes a code that does not exist.
@@ -301,6 +326,12 @@ fn event_of(
             });
         }
         EventKind::SpindleSpeed => Event::SpindleSpeed(value),
+        EventKind::SpindleAngle => Event::SpindleAngle {
+            deg: fields
+                .range(field, value, 0.0, ANGLE_MOST)
+                .map(|()| value)?,
+            way: way_of(fields, number)?,
+        },
         EventKind::SelectTool => Event::SelectTool(whole()?),
         EventKind::MCode => Event::MCode(whole()?),
         EventKind::PassingCode => Event::PassingCode(whole()?),
@@ -338,6 +369,16 @@ fn event_of(
                 depth_um,
             }
         }
+    })
+}
+
+/// The way to an angle that has a number.
+fn way_of(fields: &Fields, number: u32) -> Result<OrientWay, RecordError> {
+    fields.range("number", f64::from(number), 0.0, f64::from(WAYS_MOST))?;
+    Ok(match number {
+        0 => OrientWay::Shortest,
+        1 => OrientWay::Clockwise,
+        _ => OrientWay::Counterclockwise,
     })
 }
 

@@ -89,7 +89,10 @@ impl SpindleFlags {
     /// [`Feedback::spindle_v`] is measured.
     pub const SPEED: Self = Self(1 << 6);
 
-    pub(super) const KNOWN: u32 = (1 << 7) - 1;
+    /// [`Feedback::spindle_load`] is measured.
+    pub const LOAD: Self = Self(1 << 7);
+
+    pub(super) const KNOWN: u32 = (1 << 8) - 1;
 
     /// True if all of `other` are set.
     #[must_use]
@@ -126,7 +129,7 @@ pub struct Latch {
 /// To be sent once a period or more often; 1 kHz is good.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Feedback.v4")]
+#[type_name("glidepath.Feedback.v5")]
 pub struct Feedback {
     /// Identifies one life of the stack: another stack, or the same started again, has another.
     pub boot_id: u64,
@@ -193,6 +196,8 @@ pub struct Feedback {
     pub index_kept: u32,
     /// Where these were at the index pulse, as the drives count, mm or degrees.
     pub index_position: [f64; AXES],
+    /// Load of the spindle: the magnitude of its torque as a part of its rated one.
+    pub spindle_load: f64,
 }
 
 impl Feedback {
@@ -204,7 +209,7 @@ impl Feedback {
 }
 
 impl Record for Feedback {
-    const NAME: &'static str = "glidepath.Feedback.v4";
+    const NAME: &'static str = "glidepath.Feedback.v5";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -225,6 +230,7 @@ impl Record for Feedback {
         fields.all_finite("position", &self.position)?;
         fields.all_finite("velocity", &self.velocity)?;
         fields.all_finite("index_position", &self.index_position)?;
+        fields.finite("spindle_load", self.spindle_load)?;
         for code in self.drive_state {
             fields.code::<DriveState>("drive_state", code)?;
         }

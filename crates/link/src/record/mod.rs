@@ -37,7 +37,7 @@ mod status;
 mod superposition;
 mod text;
 
-pub use auxiliary::{ANALOG_OUTPUTS, Auxiliary, Coolant, SpindleState};
+pub use auxiliary::{ANALOG_OUTPUTS, Auxiliary, Coolant, OrientTurn, SpindleState};
 pub use check::{RecordError, decode};
 pub use code_words::CodeWords;
 pub use command::{COMMAND_KINDS, Command, CommandKind, CommandRequest};

@@ -15,7 +15,7 @@ use iceoryx2::prelude::ZeroCopySend;
 /// The status of the interpolator: what it does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Status.v15")]
+#[type_name("glidepath.Status.v16")]
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -203,6 +203,11 @@ pub struct Status {
     pub freeze_reason: u32,
     /// 1 if the job that a planner has told of last is a stream of segments, 0 if not.
     pub job_stream: u32,
+    /// Spindle override as commanded; the [`super::Auxiliary`] has what is in force.
+    pub spindle_override: f64,
+    /// Load of the spindle as it was measured last: the magnitude of its torque as a part of its rated one; means
+    /// something if [`SpindleFlags::LOAD`] is set.
+    pub spindle_load: f64,
 }
 
 /// Drives that have said nothing for so long are silent: nobody knows where they are, ns.

@@ -16,7 +16,10 @@ impl CommandKind {
             Self::Ping => "ping",
             Self::Hold => "hold",
             Self::Resume => "resume",
-            Self::FeedOverride | Self::RapidOverride | Self::JogOverride => "override",
+            Self::FeedOverride
+            | Self::RapidOverride
+            | Self::JogOverride
+            | Self::SpindleOverride => "override",
             Self::Abort => "abort",
             Self::StopAtEndOfBlock => "stop-at-block-end",
             Self::SingleBlock => "single-block",

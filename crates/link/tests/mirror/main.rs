@@ -11,7 +11,8 @@ use core::fmt::Debug;
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
 use glidepath_link::mirror::{
-    Gap, Mirror, MirrorCounts, MirrorError, MirrorSettings, SetpointMirror, StatusMirror,
+    Gap, Mirror, MirrorCounts, MirrorError, MirrorNote, MirrorSettings, SetpointMirror,
+    StatusMirror,
 };
 use glidepath_link::{Ipc, LinkConfig, MachineState, Setpoint, Status, Transport};
 use glidepath_testing::{Pulse, skip};
@@ -122,7 +123,11 @@ impl Running {
         let thread = spawn(move || {
             let mut mirror = Mirror::open(&settings)?;
             let link = Ipc::connect(&link)?;
-            mirror.relay(&link, ending, &mut |gap| told.send(gap).unwrap())
+            mirror.relay(&link, ending, &mut |note| {
+                if let MirrorNote::Lost(gap) = note {
+                    told.send(gap).unwrap();
+                }
+            })
         });
         let watcher = Ipc::connect(&place.link).unwrap();
         let begun = Instant::now();

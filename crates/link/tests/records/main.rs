@@ -4,11 +4,11 @@
 use bytemuck::Zeroable;
 use glidepath_geometry::{AXES, AxisVector, Segment};
 use glidepath_link::{
-    Command, CommandKind, CommandRefusal, CommandReply, CommandRequest, ContactKind, DriveState,
-    EndOfEpoch, EventKind, EventRecord, FRAME_REFUSALS, FaultCause, Feedback, FrameRefusal,
-    JogDemand, JogMode, LatchKind, Loss, MachineState, MotionMode, OVERRIDE_MAX, Power, Record,
-    RecordError, RequestKind, SegmentRefusal, SegmentReply, SegmentRequest, Setpoint,
-    SetpointFrame, Status, StreamItem, Text, decode, printable,
+    Auxiliary, Command, CommandKind, CommandRefusal, CommandReply, CommandRequest, ContactKind,
+    DriveState, EndOfEpoch, EventKind, EventRecord, FRAME_REFUSALS, FaultCause, Feedback,
+    FrameRefusal, JogDemand, JogMode, LatchKind, Loss, MachineState, MotionMode, OVERRIDE_MAX,
+    Power, Record, RecordError, RequestKind, SegmentRefusal, SegmentReply, SegmentRequest,
+    Setpoint, SetpointFrame, Status, StreamItem, Text, decode, printable,
 };
 use glidepath_program::{Event, Item, ItemKind, PathMode, Rate};
 use proptest::prelude::*;
@@ -213,7 +213,7 @@ fn frames_out_of_range_are_refused() {
         bad.to_frame(),
         Err(RecordError::UnknownFlags { bits: 256, .. })
     ));
-    for code in [0, 15] {
+    for code in [0, 16] {
         let bad = with_events(good, &[EventRecord { kind: code, ..tool }]);
         assert!(matches!(
             bad.to_frame(),
@@ -262,7 +262,8 @@ fn unknown_codes_and_bits_are_refused() {
         refused(Feedback::zeroed(), |f| f.loss = 5),
         refused(JogDemand::zeroed(), |j| j.mode = 5),
         refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 0),
-        refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 23),
+        refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 24),
+        refused(Auxiliary::default(), |a| a.spindle_turn = 4),
         refused(SegmentReply::zeroed(), |r| r.refusal = 12),
         refused(good_segment(), |s| s.kind = 0),
         refused(good_segment(), |s| s.mode = 5),
@@ -276,14 +277,14 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_setpoint(), |s| s.flags = 256),
         refused(good_status(), |s| s.grants = 64),
         refused(good_status(), |s| s.unanswered = 2),
-        refused(good_status(), |s| s.spindle_flags = 128),
+        refused(good_status(), |s| s.spindle_flags = 256),
         refused(good_status(), |s| s.awaited_words.given = 4),
         refused(good_status(), |s| s.homed = 1 << 9),
         refused(good_setpoint(), |s| s.enable = 1 << 9),
         refused(good_setpoint(), |s| s.home = 1 << 9),
         refused(Feedback::zeroed(), |f| f.joints = 1 << 9),
         refused(Feedback::zeroed(), |f| f.home_switch = 1 << 31),
-        refused(Feedback::zeroed(), |f| f.spindle_flags = 128),
+        refused(Feedback::zeroed(), |f| f.spindle_flags = 256),
         refused(JogDemand::zeroed(), |j| j.mask = 1 << 9),
         refused(CommandRequest::new(1, 1, Command::Home(1)), |c| {
             c.joints = 1 << 9;
@@ -351,7 +352,7 @@ fn codes_are_consecutive_and_known() {
     in_sequence(EndOfEpoch::ALL.iter().map(|code| code.code()), 0, 5);
     in_sequence(ContactKind::ALL.iter().map(|code| code.code()), 0, 2);
     in_sequence(FrameRefusal::ALL.iter().map(|code| code.code()), 1, 12);
-    in_sequence(CommandKind::ALL.iter().map(|code| code.code()), 1, 22);
+    in_sequence(CommandKind::ALL.iter().map(|code| code.code()), 1, 23);
     in_sequence(CommandRefusal::ALL.iter().map(|code| code.code()), 1, 5);
     in_sequence(SegmentRefusal::ALL.iter().map(|code| code.code()), 1, 11);
     in_sequence(Power::ALL.iter().map(|code| code.code()), 0, 3);
@@ -360,7 +361,7 @@ fn codes_are_consecutive_and_known() {
     in_sequence(LatchKind::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(Loss::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(DriveState::ALL.iter().map(|code| code.code()), 0, 8);
-    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 14);
+    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 15);
     assert_eq!(FrameRefusal::ALL.len(), FRAME_REFUSALS);
     assert!(
         FrameRefusal::ALL

@@ -3,8 +3,8 @@
 use glidepath_geometry::{Arc, AxisVector, Plane, Quintic, Segment};
 use glidepath_link::{ALL_JOINTS, Command, EventId, OVERRIDE_MAX, StreamItem};
 use glidepath_program::{
-    CodeWord, EVENTS_MOST, Event, Frame, FrameEvents, FrameFlags, Item, ItemKind, PHASE_STEPS,
-    PathMode, Rate, TAP_DEPTHS_UM,
+    CodeWord, EVENTS_MOST, Event, Frame, FrameEvents, FrameFlags, Item, ItemKind, OrientWay,
+    PHASE_STEPS, PathMode, Rate, TAP_DEPTHS_UM,
 };
 use proptest::prelude::*;
 
@@ -25,6 +25,14 @@ pub(crate) fn vector() -> impl Strategy<Value = AxisVector> {
 pub(crate) fn event() -> impl Strategy<Value = Event> {
     prop_oneof![
         finite().prop_map(Event::SpindleSpeed),
+        (0.0..=360.0, 0..3_usize).prop_map(|(deg, way)| Event::SpindleAngle {
+            deg,
+            way: [
+                OrientWay::Shortest,
+                OrientWay::Clockwise,
+                OrientWay::Counterclockwise
+            ][way],
+        }),
         any::<u32>().prop_map(Event::SelectTool),
         any::<u32>().prop_map(Event::MCode),
         any::<u32>().prop_map(Event::PassingCode),
@@ -188,6 +196,7 @@ pub(crate) fn command() -> impl Strategy<Value = Command> {
         Just(Command::Forward),
         (0.0..=OVERRIDE_MAX).prop_map(Command::RapidOverride),
         (0.0..=1.0).prop_map(Command::JogOverride),
+        (0.0..=2.0).prop_map(Command::SpindleOverride),
         any::<bool>().prop_map(Command::SingleBlock),
         (0..9_u32, finite()).prop_map(|(joint, position)| Command::SetPosition { joint, position }),
         (0..=ALL_JOINTS).prop_map(Command::Home),

@@ -21,7 +21,11 @@ pub(crate) fn restoring(now: &Auxiliary, expected: &Auxiliary) -> Vec<Event> {
     if (now.spindle_speed - expected.spindle_speed).abs() > 0.0 {
         tell(&mut now, Event::SpindleSpeed(expected.spindle_speed));
     }
-    if now.spindle != expected.spindle {
+    let is_other = now.spindle != expected.spindle || now.orientation() != expected.orientation();
+    if is_other && let Some((deg, way)) = expected.orientation() {
+        tell(&mut now, Event::SpindleAngle { deg, way });
+    }
+    if is_other {
         let code = match expected.spindle() {
             Ok(SpindleState::Clockwise) => 3,
             Ok(SpindleState::Counterclockwise) => 4,

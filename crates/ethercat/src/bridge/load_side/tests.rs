@@ -16,6 +16,7 @@ fn encoder(home_offset: Option<f64>) -> JointEncoderSettings {
         counts_per_unit: 1000.0,
         is_inverted: false,
         home_offset,
+        is_unsigned: false,
         used: EncoderUse::Position,
         apart: 0.25,
     }

@@ -1,7 +1,7 @@
 //! One life of an interpolator, and what plans for it.
 
 use super::setup::{PERIOD_NS, limits};
-use glidepath_gcode::{Connections, Options, Threading};
+use glidepath_gcode::{Connections, MCodes, Options, Threading};
 use glidepath_geometry::AxisVector;
 use glidepath_interpolator::Served;
 use glidepath_link::{
@@ -13,14 +13,19 @@ use glidepath_program::{Effort, Settings as PlanSettings, Smoothing};
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// A program's frames for a machine that stands at `start`.
 pub(crate) fn plan(text: &str, start: AxisVector, epoch: u64) -> Vec<SetpointFrame> {
+    let mut m_codes = MCodes::default();
+    m_codes.declare(19, 19);
     let options = Options {
         start,
         connections: Connections::Real,
         probing_v: Some(20.0),
         threading: Some(Threading::new(limits(), 0.004)),
+        orients: true,
+        m_codes: Arc::new(m_codes),
         ..Options::default()
     };
     let settings = PlanSettings {

@@ -95,6 +95,8 @@ pub(crate) struct Setup {
     pub(crate) probe: Option<ProbeInput>,
     /// M codes that are waited for.
     pub(crate) waits: Vec<MCodeWait>,
+    /// The least and the highest spindle override.
+    pub(crate) spindle_override: [f64; 2],
 }
 
 impl Setup {
@@ -118,6 +120,7 @@ impl Setup {
             homed: 1,
             probe: None,
             waits: Vec::new(),
+            spindle_override: [0.5, 1.2],
         }
     }
 
@@ -164,6 +167,7 @@ pub(super) fn config(setup: &Setup) -> Config {
             ..feedback
         }),
         m_code_waits: MCodeWaits::new(&setup.waits).unwrap(),
+        spindle_override: setup.spindle_override,
         mechanism: Mechanism::Trivial(Trivial {
             axes: AxisList::new(&[Axis::X, Axis::Y, Axis::Z]),
         }),

@@ -149,6 +149,8 @@ fn terminals() -> Vec<TerminalSettings> {
                 max_rpm: 8000.0,
                 ramp_rpm_per_s: RAMP,
                 at_speed_r: NEAR,
+                orientation: None,
+                tells_load: false,
                 mapping: Mapping::Written,
             }),
             ..at(SPINDLE)

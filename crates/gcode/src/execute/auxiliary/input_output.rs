@@ -1,4 +1,4 @@
-//! Inputs and outputs: M62 to M68, and M19.
+//! Inputs and outputs: M62 to M68, and the M codes of the machine.
 //!
 //! | code | what it does |
 //! |---|---|
@@ -6,7 +6,6 @@
 //! | M64 P, M65 P | the same; there is no queue here to overtake |
 //! | M66 P or E, L, Q | waits for an input; what it reads is `#5399` |
 //! | M67 E Q, M68 E Q | analog output E to the value Q |
-//! | M19 R | stops the spindle in a known position |
 //!
 //! They are refused unless the program is read with [`Connections::Simulated`] or
 //! [`Connections::Real`]. M codes that the machine's builder declared are events at rest, with their
@@ -22,7 +21,6 @@ use crate::execute::interpreter::Interpreter;
 use crate::setup::options::Connections;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
-use crate::syntax::named_word::{Named, NamedValue};
 use crate::syntax::word_check::{missing, whole};
 
 /// Largest number of an input or output.
@@ -31,15 +29,7 @@ const MAX_PORT: u32 = 63;
 impl Interpreter {
     /// M19 and M62 to M68.
     pub(crate) fn input_output(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
-        if let Some(Coded { code, span }) = block.codes.orient {
-            self.require_connection(span, "spindle that stops in a known position")?;
-            self.state.spindle.turning = None;
-            self.push(out, ItemKind::Event(Event::MCode(code)));
-        }
-        if let Some(word) = block.named.find(Named::SpindleAngle) {
-            self.stop_at_angle(word)?;
-            self.push(out, ItemKind::Event(Event::MCode(19)));
-        }
+        self.orient(block, out)?;
         if let Some(Coded { code, .. }) = block.codes.user {
             for (letter, word) in [(b'P', CodeWord::P), (b'Q', CodeWord::Q)] {
                 if let Some(value) = block.get(letter) {
@@ -82,23 +72,6 @@ impl Interpreter {
             }
         };
         self.push(out, ItemKind::Event(event));
-        Ok(())
-    }
-
-    /// SPOS, of a spindle whose angle is known.
-    fn stop_at_angle(&mut self, word: NamedValue) -> Outcome<()> {
-        if self.options.threading.is_none() && self.options.spindle_axis.is_none() {
-            let message = "SPOS of a spindle whose angle nobody knows";
-            return Err(
-                BlockDiagnostic::new(DiagnosticCode::NotConnected, word.span, message)
-                    .because(
-                        "the spindle has to stop at an angle, and the machine has no encoder on it",
-                    )
-                    .help("set `encoder = true` in [spindle] if it has one, or write M19"),
-            );
-        }
-        self.require_connection(word.span, "spindle that stops in a known position")?;
-        self.turn_spindle(None);
         Ok(())
     }
 

@@ -7,6 +7,7 @@ mod input_output;
 pub(crate) mod input_wait;
 mod non_modal;
 pub(crate) mod order;
+pub(crate) mod orientation;
 mod overrides;
 mod saved_state;
 mod spindle;

@@ -171,6 +171,7 @@ pub(super) fn options(machine: &str, dialect: &str) -> Options {
             "printer-klipper" => Some(Firmware::Klipper),
             _ => None,
         },
+        orients: follows,
         threading: follows.then(|| Threading {
             rigid_tapping: true,
             spindle_a: Some(40.0),

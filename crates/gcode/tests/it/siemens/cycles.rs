@@ -1,8 +1,21 @@
 //! Tests of SINUMERIK's cycles: drilling, boring, tapping, pockets, MCALL.
 
-use glidepath_program::{Event, ItemKind, PathMode, Rate};
+use glidepath_gcode::{Options, Program};
+use glidepath_program::{Event, Item, ItemKind, OrientWay, PathMode, Rate};
 
-use super::{ends, finds, items, moves};
+use super::{ends, finds, items, moves, options};
+
+/// A machine whose spindle is turned to an angle.
+fn oriented() -> Options {
+    Options {
+        orients: true,
+        ..options()
+    }
+}
+
+fn of(text: &str, options: Options) -> impl Iterator<Item = Item> {
+    Program::new(text.as_bytes(), options).map(|item| item.unwrap_or_else(|d| panic!("{d}")))
+}
 
 /// Z of every end, with `r` behind it where the move is a rapid.
 fn levels(text: &str) -> Vec<String> {
@@ -139,15 +152,29 @@ fn bores_are_left_with_the_spindle_at_an_angle() {
         [0.0, 2.5, 20.0],
         [1.0, 2.0, 20.0],
     ];
-    assert_eq!(ends(text), expected);
-    let codes: Vec<u32> = items(text)
-        .into_iter()
+    let goes: Vec<[f64; 3]> = of(text, oriented())
         .filter_map(|item| match item.kind {
-            ItemKind::Event(Event::MCode(code)) => Some(code),
+            ItemKind::Move { segment, .. } => Some(segment.end()),
+            _ => None,
+        })
+        .map(|end| [end[0], end[1], end[2]])
+        .collect();
+    assert_eq!(goes, expected);
+    let told: Vec<Event> = of(text, oriented())
+        .filter_map(|item| match item.kind {
+            ItemKind::Event(event @ (Event::MCode(_) | Event::SpindleAngle { .. })) => Some(event),
             _ => None,
         })
         .collect();
-    assert_eq!(codes, [3, 19]);
+    let angle = Event::SpindleAngle {
+        deg: 45.0,
+        way: OrientWay::Shortest,
+    };
+    assert_eq!(told, [Event::MCode(3), angle, Event::MCode(19)]);
+    // A spindle that is not turned to an angle would draw the tip through the wall.
+    finds(text, &["2:1 not-connected"]);
+    let own = "G0 X1 Y2 Z20\nCYCLE86(20,0,2,-10,,0.5,3,-1,0.5,1)";
+    assert_eq!(ends(own), expected);
 }
 
 #[test]
@@ -195,7 +222,7 @@ fn cycles_that_cannot_be_made_are_refused() {
         ("POCKET3(20,0,2,-5,20,6,3,0,0)", "canned-cycle"),
     ] {
         let text = format!("{head}{cycle}");
-        let report = glidepath_gcode::check(text.as_bytes(), super::options());
+        let report = glidepath_gcode::check(text.as_bytes(), options());
         let found: Vec<_> = report
             .diagnostics
             .iter()
@@ -223,7 +250,7 @@ fn rigid_taps_have_a_pitch_or_a_size() {
             Limits::uniform(200.0, 2_000.0, 40_000.0),
             0.004,
         )),
-        ..super::options()
+        ..options()
     };
     let items = |text: &str| -> Vec<String> {
         Program::new(text.as_bytes(), options())
@@ -277,7 +304,7 @@ fn a_spindle_that_is_an_axis_does_all_of_cycle84() {
         });
         let options = Options {
             spindle_axis,
-            ..super::options()
+            ..options()
         };
         let shown = Program::new(text.as_bytes(), options).map(|item| {
             match item.expect("a sound program").kind {

@@ -357,6 +357,7 @@ fn feeds_of_cycles_are_those_of_the_program_in_inches_of_lengths() {
 /// A machine whose spindle is followed.
 fn with_encoder() -> Options {
     Options {
+        orients: true,
         threading: Some(Threading {
             overtravel: 20.0,
             spindle_a: Some(40.0),

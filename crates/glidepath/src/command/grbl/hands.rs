@@ -69,6 +69,7 @@ impl Hands {
             Act::Disable => Command::Disable,
             Act::FeedOverride(ratio) => Command::FeedOverride(*ratio),
             Act::RapidOverride(ratio) => Command::RapidOverride(*ratio),
+            Act::SpindleOverride(ratio) => Command::SpindleOverride(*ratio),
             Act::Home(None) => Command::Home(self.all),
             Act::Home(Some(axis)) => {
                 Command::Home(self.joints.get(*axis).copied().unwrap_or_default())

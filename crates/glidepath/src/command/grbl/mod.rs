@@ -134,6 +134,7 @@ fn settings(config: &MachineConfig, args: &GrblArgs) -> MachineSettings {
         tolerance_mm: config.path.tolerance_mm,
         has_homing: config.feedback.homing != HomingBy::Nobody,
         most_rpm: MachineSettings::default().most_rpm,
+        spindle_override: percents(config.spindle_override),
         rx_bytes: args.rx_bytes.into(),
         ahead_t: args.ahead,
         version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -228,4 +229,11 @@ impl Endpoint {
             self.session.refused(&act, &why);
         }
     }
+}
+
+/// Whole percents inside a range of ratios.
+#[allow(clippy::cast_possible_truncation, reason = "10 to 200")]
+fn percents([least, most]: [f64; 2]) -> (i32, i32) {
+    let near = |ratio: f64| (1e6 * ratio).round() * 1e-4;
+    (near(least).ceil() as i32, near(most).floor() as i32)
 }

@@ -64,7 +64,7 @@ impl View {
                 Ok(SpindleState::Stopped | SpindleState::Oriented) | Err(_) => Spindle::Off,
             };
             if machine.spindle != Spindle::Off {
-                machine.spindle_rpm = told.spindle_speed;
+                machine.spindle_rpm = told.spindle_rpm();
             }
             machine.flood = told.coolant().contains(Coolant::FLOOD);
             machine.mist = told.coolant().contains(Coolant::MIST);
@@ -76,6 +76,7 @@ impl View {
         machine.feed_v = status.feed_v;
         machine.feed_r = status.feed_override.abs();
         machine.rapid_r = status.rapid_override;
+        machine.spindle_r = status.spindle_override;
         machine.line = status.line;
         machine.is_away = status.away.iter().any(|away| away.abs() > 0.0);
         machine.fault = fault(status);

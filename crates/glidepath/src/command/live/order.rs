@@ -38,6 +38,9 @@ pub(super) enum Order {
     JogOverride {
         value: f64,
     },
+    SpindleOverride {
+        value: f64,
+    },
     /// What an event asked for is done, or cannot be done. It names the event, so that no answer is
     /// taken for another one.
     Acknowledge {
@@ -216,6 +219,9 @@ impl Order {
             Self::JogOverride { value } if (0.0..=1.0).contains(value) => {
                 Command::JogOverride(*value)
             }
+            Self::SpindleOverride { value } if (0.0..=2.0).contains(value) => {
+                Command::SpindleOverride(*value)
+            }
             Self::Acknowledge {
                 boot,
                 epoch,
@@ -284,6 +290,7 @@ mod tests {
             "{\"kind\":\"feed-override\",\"value\":-3}",
             "{\"kind\":\"rapid-override\",\"value\":1.1}",
             "{\"kind\":\"jog-override\",\"value\":-0.1}",
+            "{\"kind\":\"spindle-override\",\"value\":2.1}",
             "{\"kind\":\"home\",\"joints\":[3]}",
             "{\"kind\":\"home\",\"joints\":[99]}",
             "{\"kind\":\"acknowledge\",\"boot\":\"x\",\"epoch\":1,\"sequence\":1}",

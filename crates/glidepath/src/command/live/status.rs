@@ -132,5 +132,5 @@ fn spindle(told: &Auxiliary) -> Value {
         (false, true) => "flood",
         (true, true) => "mist and flood",
     };
-    json!({ "speed": told.spindle_speed, "turns": turns, "coolant": coolant })
+    json!({ "speed": told.spindle_rpm(), "programmed": told.spindle_speed, "turns": turns, "coolant": coolant })
 }

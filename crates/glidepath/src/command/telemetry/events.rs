@@ -65,6 +65,7 @@ fn words(setpoint: &Setpoint) -> Option<String> {
 fn word(event: Event) -> String {
     match event {
         Event::SpindleSpeed(speed) => format!("S{speed}"),
+        Event::SpindleAngle { deg, .. } => format!("the spindle's angle {deg}"),
         Event::SelectTool(tool) => format!("T{tool}"),
         Event::MCode(number) | Event::PassingCode(number) | Event::ProgramStop(number) => {
             format!("M{number}")

@@ -88,6 +88,7 @@ pub(super) fn judge(
     );
     let expects_feedback = feedback.is_expected;
     let m_codes = judge.m_codes(raw.m_codes);
+    let spindle_override = judge.spindle_override(&raw.spindle);
     let spindle = judge.spindle(
         raw.spindle,
         &SpindleSurroundings {
@@ -99,6 +100,7 @@ pub(super) fn judge(
     );
     let program = judge.program(raw.program, &mechanism, expects_feedback);
     let config = MachineConfig {
+        spindle_override,
         mechanism,
         home_of_joints,
         compensation,

@@ -21,7 +21,53 @@ pub(super) struct SpindleSurroundings<'a> {
     pub(super) has_drives: bool,
 }
 
+impl SpindleSurroundings<'_> {
+    /// Whether the machine waits for a code where it stands.
+    fn is_awaited(&self, code: u32) -> bool {
+        let mut rules = self.m_codes.iter();
+        let rule =
+            rules.find(|rule| (rule.m_code_wait.first..=rule.m_code_wait.last).contains(&code));
+        rule.is_some_and(|rule| {
+            rule.m_code_wait.answer != AnswerSource::Nobody && rule.at == WaitsAt::Code
+        })
+    }
+}
+
+/// The least and the highest spindle override, if the file does not say.
+const OVERRIDE: [f64; 2] = [0.5, 1.2];
+/// The highest one where threads follow the spindle: they are planned for one that turns so much faster.
+const OF_THREADS: f64 = 1.1;
+
 impl Judge {
+    /// The least and the highest override of the spindle's speed.
+    pub(super) fn spindle_override(&mut self, raw: &RawSpindle) -> [f64; 2] {
+        let range = |min, max, help| Range {
+            min,
+            max,
+            unit: "",
+            help,
+        };
+        let least = range(0.1, 1.0, "a part of the programmed speed: 0.5 is 50 %");
+        let is_followed = raw.encoder.as_ref().is_some_and(|it| *it.get_ref());
+        let (most, of_most) = if is_followed {
+            let help = "passes of a thread are planned for a spindle that is a tenth faster than programmed \
+                        (encoder = true), and would stop with a fault beyond that";
+            (range(1.0, OF_THREADS, help), OF_THREADS)
+        } else {
+            let help = "what the spindle and its tools allow: 1.2 is 120 %";
+            (range(1.0, 2.0, help), OVERRIDE[1])
+        };
+        [
+            self.number_or(
+                "spindle.override_min",
+                &raw.override_min,
+                &least,
+                OVERRIDE[0],
+            ),
+            self.number_or("spindle.override_max", &raw.override_max, &most, of_most),
+        ]
+    }
+
     /// The spindle, if programs may follow its angle or turn it as an axis.
     pub(super) fn spindle(
         &mut self,
@@ -50,6 +96,19 @@ impl Judge {
         let rigid_tapping = raw.rigid_tapping.as_ref().filter(|taps| *taps.get_ref());
         let encoder = raw.encoder.as_ref().filter(|encoder| *encoder.get_ref());
         let axis = self.spindle_axis(raw.axis, of);
+        let orientation = raw
+            .orientation
+            .as_ref()
+            .filter(|orients| *orients.get_ref());
+        if let Some(orients) = orientation.filter(|_| of.has_drives && !of.is_awaited(19)) {
+            self.spindle_finding(
+                "orientation",
+                orients.span(),
+                "nobody says when the spindle stands at its angle, and the program goes on before it does",
+                "add a table [m_codes.M19] with done = \"spindle-oriented\" or what else says so, \
+                 and without at",
+            );
+        }
         if let (Some(taps), None, None) = (rigid_tapping, encoder, axis) {
             self.spindle_finding(
                 "rigid_tapping",
@@ -66,8 +125,10 @@ impl Judge {
                 "leave it out, or set machine.kinematics = \"trivial\"",
             );
         }
-        (encoder.is_some() || axis.is_some()).then_some(SpindleConfig {
+        let is_told = encoder.is_some() || axis.is_some() || orientation.is_some();
+        is_told.then_some(SpindleConfig {
             encoder: encoder.is_some(),
+            orientation: orientation.is_some(),
             axis,
             rigid_tapping: rigid_tapping.is_some(),
             acceleration,
@@ -105,14 +166,7 @@ impl Judge {
                 "leave it out, or set machine.kinematics = \"trivial\"",
             );
         }
-        let stop = of
-            .m_codes
-            .iter()
-            .find(|rule| (rule.m_code_wait.first..=rule.m_code_wait.last).contains(&5));
-        let is_awaited = stop.is_some_and(|rule| {
-            rule.m_code_wait.answer != AnswerSource::Nobody && rule.at == WaitsAt::Code
-        });
-        if of.has_drives && !is_awaited {
+        if of.has_drives && !of.is_awaited(5) {
             self.spindle_finding(
                 "axis",
                 span.clone(),

@@ -22,6 +22,14 @@ pub(super) const SPINDLE: &[Key] = &[
          [m_codes.M5] that says when the spindle stands",
     ),
     key(
+        "spindle.orientation",
+        Takes::Flag,
+        LeftOut::Value("false"),
+        "the spindle is turned to the angle that a program gives it (M19 R, SPOS) and held there; without \
+         it such a program is refused. With feedback of drives it takes a table [m_codes.M19] that says when \
+         it stands there",
+    ),
+    key(
         "spindle.rigid_tapping",
         Takes::Flag,
         LeftOut::Value("false"),
@@ -33,6 +41,19 @@ pub(super) const SPINDLE: &[Key] = &[
         LeftOut::Means("a rigid tap turns back at the bottom of its hole, and runs on below it"),
         "how fast the speed of the spindle changes when it turns back: a rigid tap is turned back so \
          much above the bottom of its hole",
+    ),
+    key(
+        "spindle.override_min",
+        number(0.1, 1.0, ""),
+        LeftOut::Value("0.5"),
+        "the least spindle override that an operator may set: 0.5 is 50 %",
+    ),
+    key(
+        "spindle.override_max",
+        number(1.0, 2.0, ""),
+        LeftOut::Means("1.2, and 1.1 with encoder = true"),
+        "the highest spindle override that an operator may set; at most 1.1 with encoder = true, because threads \
+         are planned for a spindle that turns that much faster than programmed",
     ),
     key(
         "spindle.overtravel",

@@ -66,6 +66,22 @@ impl Devices<'_> {
             let help = "leave out home_offset if this encoder only counts, or [drive.homing]";
             self.tell(KEY, message, help, offset.span());
         }
+        if let (Some(offset), Some(joint)) = (&raw.home_offset, joint)
+            && self.turns_on.contains(&joint)
+        {
+            let message = format!(
+                "J{joint} turns on and on, and its absolute encoder says where it is in one range alone"
+            );
+            let help =
+                "leave out home_offset, so that the encoder only counts, or modulo of its drive";
+            self.tell(KEY, message, help, offset.span());
+        }
+        if let (Some(signed), None) = (&raw.signed, &raw.home_offset) {
+            let message = "signed is for an absolute encoder, with home_offset".to_owned();
+            let help =
+                "leave it out: one that only counts goes round at its end, whatever its sign";
+            self.tell(KEY, message, help, signed.span());
+        }
         let at = match &raw.at {
             None => COUNTER,
             Some(at) => {
@@ -90,6 +106,7 @@ impl Devices<'_> {
             counts_per_unit,
             is_inverted: raw.invert,
             home_offset,
+            is_unsigned: raw.signed.as_ref().is_some_and(|signed| !signed.get_ref()),
             used: used?,
             apart,
         })

@@ -68,12 +68,29 @@ fn what_is_wrong_with_an_encoder_of_a_joint_is_told_with_its_place() {
             "\"watch\", home_offset = 1.0",
             "home_offset is for an encoder with use = \"position\"",
         ),
+        (
+            "apart = 0.2",
+            "apart = 0.2, signed = false",
+            "signed is for an absolute encoder, with home_offset",
+        ),
     ] {
         let encoder = good.replace(from, to);
         let told = wrong(&file(&format!("joint_encoders = [{{ {encoder} }}]\n")));
         let is_told = |(line, told): &(usize, String)| *line == 23 && told.contains(message);
         assert!(told.iter().any(is_told), "{message}: {told:?}");
     }
+    let absolute = format!("joint_encoders = [{{ {good}, home_offset = 1.0, signed = false }}]\n");
+    let drives = parse("drives.toml", &file(&absolute), &machine("none")).unwrap();
+    assert!(drives.terminals[0].joint_encoders[0].is_unsigned);
+    let turning = file(&absolute).replacen(
+        "quick_stop = 2000.0",
+        "quick_stop = 2000.0\nmodulo = true",
+        1,
+    );
+    let told = wrong(&turning);
+    let says =
+        |(line, told): &(usize, String)| *line == 24 && told.starts_with("J0 turns on and on");
+    assert!(told.iter().any(says), "{told:?}");
     let twice = format!("joint_encoders = [{{ {good} }},\n{{ {good} }}]\n");
     let told = wrong(&file(&twice));
     assert_eq!(told, [(24, "J0 has two encoders at terminals".to_owned())]);

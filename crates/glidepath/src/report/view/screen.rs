@@ -39,10 +39,11 @@ pub fn view_text(view: &View<'_>) -> String {
         status.feed_v * 60.0
     ));
     lines.push(format!(
-        "  override  feed {:.0} %, rapid {:.0} %, jog {:.0} %; executed {:.0} %{}",
+        "  override  feed {:.0} %, rapid {:.0} %, jog {:.0} %, spindle {:.0} %; executed {:.0} %{}",
         status.feed_override * 100.0,
         status.rapid_override * 100.0,
         status.jog_override * 100.0,
+        status.spindle_override * 100.0,
         status.effective_override * 100.0,
         manner_text(status)
     ));

@@ -55,6 +55,7 @@ impl DriveMonitor {
             | Command::Return
             | Command::Acknowledge { .. }
             | Command::JogOverride(_)
+            | Command::SpindleOverride(_)
             | Command::Reverse
             | Command::Forward
             | Command::Job { .. }

@@ -298,6 +298,7 @@ impl DriveMonitor {
         status.homed = self.homed(&joints);
         status.drive_faults = joints.fault;
         (status.spindle_flags, status.spindle_v) = (joints.spindle.0, joints.spindle_v);
+        status.spindle_load = joints.spindle_load;
         status.feedback_age_ns = self.age_ns(&joints, now_ns);
         status.joint_actual = self.all_nominal(&joints.position.into()).into();
         status.following_error = self.following.errors();

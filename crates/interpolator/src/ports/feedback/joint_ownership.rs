@@ -33,6 +33,8 @@ pub(super) struct Joints {
     pub(super) spindle: SpindleFlags,
     /// Speed of the spindle, of a stack that measures it, rev/s.
     pub(super) spindle_v: f64,
+    /// Its load, of a stack that measures it, as a part of its rated torque.
+    pub(super) spindle_load: f64,
     /// Number of the last setpoint that every stack has played.
     pub(super) played: u64,
     /// What a stack has lost.
@@ -69,6 +71,7 @@ impl Joints {
         digital_in: 0,
         spindle: SpindleFlags(0),
         spindle_v: 0.0,
+        spindle_load: 0.0,
         played: 0,
         loss: None,
     };
@@ -290,6 +293,9 @@ impl JointOwnership {
             joints.spindle = SpindleFlags(joints.spindle.0 | said.spindle_flags);
             if said.spindle().contains(SpindleFlags::SPEED) {
                 joints.spindle_v = said.spindle_v;
+            }
+            if said.spindle().contains(SpindleFlags::LOAD) {
+                joints.spindle_load = said.spindle_load;
             }
             joints.limits |= (said.limit_low | said.limit_high) & claimed;
             for joint in (0..JOINTS).filter(|joint| claimed & (1 << joint) != 0) {

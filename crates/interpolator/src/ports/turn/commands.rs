@@ -24,9 +24,11 @@ impl Ports<'_> {
             jobs: &mut self.jobs,
             frame_validator: &mut self.frame_validator,
             ends: &mut self.ends,
+            spindle_override: self.spindle_override,
             is_ordered,
         };
         let (book, log) = (&mut self.book, &mut self.log);
+        let auxiliary = &mut self.auxiliary;
         for _ in 0..COMMANDS_PER_TURN {
             let served = self.links.commands.serve(&mut |request| {
                 let reply = desk.answer(request);
@@ -50,6 +52,11 @@ impl Ports<'_> {
                 } else if matches!(command, Some(Command::Job { .. })) {
                     // Its planner waits for that.
                     self.status_due_ns = 0;
+                }
+                if let Some(Command::SpindleOverride(ratio)) = command
+                    && !is_refusal(&reply)
+                {
+                    auxiliary.set_spindle_override(ratio);
                 }
                 book.status.commands_served += 1;
                 book.status.commands_refused += u64::from(is_refusal(&reply));

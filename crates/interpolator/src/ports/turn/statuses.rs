@@ -20,6 +20,9 @@ impl Ports<'_> {
         self.book
             .write(&report, &self.frame_validator, waiting, now_ns);
         self.book.status.awaited_words = self.auxiliary.awaited_words();
+        self.auxiliary
+            .watch_program(self.book.status.program, report.end_of_epoch);
+        self.book.status.spindle_override = self.auxiliary.spindle_override();
         self.book.status.state = self.jobs.state(&report).code();
         self.jobs.write(&mut self.book.status);
         if let Some(drives) = &self.drives {

@@ -72,6 +72,7 @@ impl Interpolator<'_> {
             Command::Ping
             | Command::FeedOverride(_)
             | Command::RapidOverride(_)
+            | Command::SpindleOverride(_)
             | Command::StopAtEndOfBlock
             | Command::SingleBlock(_)
             | Command::Reset

@@ -228,6 +228,9 @@ impl Interpolator<'_> {
         if self.track.m_code_waits().late(setpoint).is_some() {
             self.wait.hear(setpoint);
         }
+        if let Ok(Some(event)) = setpoint.event() {
+            self.wait.hear_word(event);
+        }
         self.tell_spindle(setpoint);
     }
 

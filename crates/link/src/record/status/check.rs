@@ -6,7 +6,7 @@ use crate::record::{ALL_JOINTS, Grants, OVERRIDE_MAX, Record, SpindleFlags};
 use glidepath_geometry::AXES;
 
 impl Record for Status {
-    const NAME: &'static str = "glidepath.Status.v15";
+    const NAME: &'static str = "glidepath.Status.v16";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -24,6 +24,7 @@ impl Record for Status {
         fields.signed_override("feed_override", self.feed_override)?;
         fields.override_ratio("rapid_override", self.rapid_override)?;
         fields.range("jog_override", self.jog_override, 0.0, 1.0)?;
+        fields.override_ratio("spindle_override", self.spindle_override)?;
         fields.range(
             "effective_override",
             self.effective_override,
@@ -72,6 +73,7 @@ impl Record for Status {
         self.job_stage()?;
         fields.flags("job_held", self.job_held, 1)?;
         fields.finite("spindle_v", self.spindle_v)?;
+        fields.finite("spindle_load", self.spindle_load)?;
         fields.flags("spindle_flags", self.spindle_flags, SpindleFlags::KNOWN)?;
         fields.all_finite("superposed", &self.superposed)?;
         self.superposition()?;

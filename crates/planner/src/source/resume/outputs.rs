@@ -47,6 +47,8 @@ impl SaidOutputs {
         if self.has_told_spindle {
             wanted.spindle = self.said.spindle;
             wanted.spindle_speed = self.said.spindle_speed;
+            wanted.spindle_angle = self.said.spindle_angle;
+            wanted.spindle_turn = self.said.spindle_turn;
         }
         if self.has_told_coolant {
             wanted.coolant = self.said.coolant;
@@ -62,6 +64,7 @@ impl SaidOutputs {
 mod tests {
     use super::*;
     use glidepath_link::SpindleState;
+    use glidepath_program::OrientWay;
 
     fn said(events: &[Event]) -> SaidOutputs {
         let mut said = SaidOutputs::default();
@@ -73,6 +76,24 @@ mod tests {
             });
         }
         said
+    }
+
+    #[test]
+    fn a_spindle_that_stood_at_an_angle_stands_there_again() {
+        let angle = |deg| Event::SpindleAngle {
+            deg,
+            way: OrientWay::Clockwise,
+        };
+        let there = [angle(90.0), Event::MCode(19)];
+        let mut now = Auxiliary::default();
+        assert_eq!(said(&there).restoring(&now), there);
+        for event in there {
+            now.take(event);
+        }
+        assert_eq!(said(&there).restoring(&now), []);
+        // At another angle it is turned anew.
+        let elsewhere = [angle(30.0), Event::MCode(19)];
+        assert_eq!(said(&elsewhere).restoring(&now), elsewhere);
     }
 
     #[test]

@@ -17,7 +17,9 @@ impl ToldCodes {
     /// Takes note of an item that was executed.
     pub(super) fn take(&mut self, item: &Item) {
         match item.kind {
-            ItemKind::Event(Event::CodeWord { .. }) => self.words.push(*item),
+            ItemKind::Event(Event::CodeWord { .. } | Event::SpindleAngle { .. }) => {
+                self.words.push(*item);
+            }
             ItemKind::Event(Event::MCode(code)) => {
                 let mut told = core::mem::take(&mut self.words);
                 told.push(*item);

@@ -238,7 +238,12 @@ impl Interpreter {
         lines.line(format!("M{direction}"));
         lines.along("G1", levels.bottom);
         lines.dwell(dwell);
-        lines.line(format!("M19 R[{angle}]"));
+        // Without an angle it is 0, or the spindle's own where it does not turn to any.
+        lines.line(if angle == 0.0 {
+            "M19".to_owned()
+        } else {
+            format!("M19 R[{}]", angle.rem_euclid(360.0))
+        });
         if by.iter().any(|way| *way != 0.0) {
             let to = [at[0] + by[0], at[1] + by[1], levels.bottom + by[2]];
             lines.go("G0", to.map(Some));

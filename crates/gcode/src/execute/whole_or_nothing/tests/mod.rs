@@ -259,6 +259,7 @@ fn machine(dialect: Dialect, axes: &[Axis]) -> Options {
         tools: tools(),
         connections: Connections::Simulated,
         default_feed_mm_min: Some(600.0),
+        orients: true,
         threading: Some(Threading::new(
             Limits::uniform(200.0, 2_000.0, 40_000.0),
             0.004,
