@@ -287,10 +287,7 @@ impl fmt::Display for Violation {
                 over_j,
                 allowed_j,
             } => write_unsteady(f, axis, [over_j, allowed_j]),
-            ViolationKind::SlowedDown { speed_v, feed_v } => write!(
-                f,
-                "slowed down to {speed_v:.3} of {feed_v:.3} mm/s in the middle of a move"
-            ),
+            ViolationKind::SlowedDown { speed_v, feed_v } => write_slowed_down(f, speed_v, feed_v),
             ViolationKind::Lost => write!(f, "the motion does not follow the program any more"),
             ViolationKind::Incomplete => write!(f, "the motion ends before the program does"),
         }
@@ -301,6 +298,13 @@ fn write_direction(f: &mut fmt::Formatter<'_>, [off_deg, allowed_deg]: [f64; 2])
     write!(
         f,
         "the tool's direction is {off_deg:.6}° off the programmed one, where {allowed_deg:.6}° is allowed"
+    )
+}
+
+fn write_slowed_down(f: &mut fmt::Formatter<'_>, speed_v: f64, feed_v: f64) -> fmt::Result {
+    write!(
+        f,
+        "slowed down to {speed_v:.3} of {feed_v:.3} mm/s in the middle of a move"
     )
 }
 

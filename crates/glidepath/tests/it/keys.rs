@@ -47,7 +47,8 @@ fn machine_with(key: &str) -> Table {
         let own = "[machine]\nkinematics = 'linear-delta'\n[machine.linear-delta]\nrod = 2000\nradius = 500\n";
         return parsed(&format!("{own}{}{}", axes("XYZ"), joints(3)));
     }
-    if key.starts_with("machine.five-axis") || key == "path.direction_tolerance" {
+    let of_tools_that_turn = ["path.direction_tolerance", "program.unwind"];
+    if key.starts_with("machine.five-axis") || of_tools_that_turn.contains(&key) {
         let own = format!(
             "[machine]\nkinematics = 'five-axis'\n[machine.five-axis]\nlayout = '{layout}'\n\
              tilt = 'A'\ntool = 100\n"

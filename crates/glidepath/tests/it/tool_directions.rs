@@ -91,7 +91,7 @@ fn c_that_has_wound_up_is_refused_before_anything_moves() {
     assert!(!output.status.success(), "{output:?}");
     let told =
         String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap();
-    for part in ["C would go to", "unwind = ", "p.mpf:11:"] {
+    for part in ["C would go to", "unwind = ", "\"line\": 11,"] {
         assert!(told.contains(part), "{part}: {told}");
     }
     let unwinding = format!("{SIEMENS}unwind = \"rapids\"\n[path]");
