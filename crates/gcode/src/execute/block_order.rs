@@ -108,6 +108,7 @@ impl Interpreter {
             Some(Stop::End) => {
                 self.end_compensation(out)?;
                 self.end_offsets();
+                self.end_auxiliary(out);
                 AfterBlock::End
             }
             Some(Stop::Program(number)) => {

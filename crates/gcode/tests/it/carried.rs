@@ -8,7 +8,7 @@ use glidepath_gcode::{
     Tool, ToolTable,
 };
 use glidepath_geometry::AxisVector;
-use glidepath_program::{Item, ItemKind, Rate};
+use glidepath_program::{Event, Item, ItemKind, Rate};
 
 fn options(dialect: Dialect) -> Options {
     let mut tools = ToolTable::new();
@@ -190,4 +190,36 @@ fn a_program_of_a_control_begins_in_its_motion_code() {
         first_rate(("G1 X5 F600\n", Dialect::Fanuc), Dialect::Fanuc),
         Rate::Feed(10.0)
     );
+}
+
+/// What stops at the end: LinuxCNC's manual of M2 and M30 ("the spindle is stopped, as if by M5, coolant as if by M9"),
+/// grbl's `gc_execute_line`, Haas' of M30.
+#[test]
+fn the_end_of_a_program_stops_what_is_on() {
+    let events = |text: &str, dialect| -> Vec<Event> {
+        let items = items(text, dialect, None).into_iter().flatten();
+        items
+            .filter_map(|item| match item.kind {
+                ItemKind::Event(event) => Some(event),
+                _ => None,
+            })
+            .collect()
+    };
+    for dialect in [Dialect::LinuxCnc, Dialect::Fanuc, Dialect::Siemens] {
+        for end in ["M2", "M30"] {
+            let on = format!("M3 S1000\nM8\nG1 X1 F100\n{end}\n");
+            let told = events(&on, dialect);
+            let last = &told[told.len() - 2..];
+            assert_eq!(last, [Event::MCode(5), Event::PassingCode(9)], "{on}");
+            assert!(left_by(&on, dialect).words().contains(" M5 M9 "), "{on}");
+            let off = events(&format!("M3 S1000\nM8\nM5 M9\n{end}\n"), dialect);
+            assert_eq!(off.len(), 5, "nothing is told twice: {off:?}");
+        }
+    }
+    // The percent line ends the reading of a file, and stops nothing: what follows is told so.
+    let open = "%\nM3 S1000\nM8\nG1 X1 F100\n%\n";
+    let stops = |event: &Event| matches!(event, Event::MCode(5) | Event::PassingCode(9));
+    assert!(!events(open, Dialect::LinuxCnc).iter().any(stops));
+    let words = left_by(open, Dialect::LinuxCnc).words();
+    assert!(words.contains(" M3 M8 "), "{words}");
 }
