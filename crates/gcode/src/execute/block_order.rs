@@ -115,11 +115,11 @@ impl Interpreter {
                 self.push(out, ItemKind::Event(Event::ProgramStop(number)));
                 AfterBlock::Continue
             }
-            Some(Stop::Optional) => {
+            Some(Stop::Optional) if self.options.stops_at_m1 => {
                 self.push(out, ItemKind::Event(Event::OptionalStop));
                 AfterBlock::Continue
             }
-            None => AfterBlock::Continue,
+            Some(Stop::Optional) | None => AfterBlock::Continue,
         })
     }
 
