@@ -223,3 +223,23 @@ fn the_end_of_a_program_stops_what_is_on() {
     let words = left_by(open, Dialect::LinuxCnc).words();
     assert!(words.contains(" M3 M8 "), "{words}");
 }
+
+/// `gc_init` of grbl, and what is of the machine and stays.
+#[test]
+fn a_reset_puts_in_force_what_a_machine_begins_with() {
+    let text = "G20 G91 G18 G55 G43.1 Z1 S1000 M3 M8 T7\nG10 L2 P3 X2\nG92 X1\n#31=4\nG1 X1 F10\n";
+    let left = left_by(text, Dialect::LinuxCnc);
+    let begin = left_by("", Dialect::LinuxCnc);
+    let reset = left.reset_to(&begin);
+    assert_eq!(reset.words(), "G0 G54 G17 G21 G90 G94 M5 M9 T7 F600 S0");
+    let beside = reset.position_offsets();
+    assert!(beside.shift.norm() + beside.tool.norm() < 1e-12);
+    // Parameters are not grbl's.
+    let next = items("G21 G90 G0 X#31", Dialect::LinuxCnc, Some(reset.clone()));
+    let ItemKind::Move { segment, .. } = &next[0].as_ref().unwrap().kind else {
+        panic!("a move");
+    };
+    assert!((segment.end()[0] - 4.0).abs() < 1e-12);
+    let turning = reset.turning_as(&left);
+    assert!(turning.words().contains(" M3 M8 "), "{}", turning.words());
+}
