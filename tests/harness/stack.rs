@@ -73,7 +73,9 @@ fn play(link: &LinkConfig, plant: &Mutex<Plant>, ending: &AtomicBool) {
     let mut servo = Servo::new(setpoints, settings);
     let mut sink = transport.feedback_sink().unwrap();
     while !ending.load(Ordering::Relaxed) {
-        while servo.receive(Monotonic.now_ns()).unwrap().is_some() {}
+        while let Some(setpoint) = servo.receive(Monotonic.now_ns()).unwrap() {
+            plant.lock().unwrap().hear(&setpoint);
+        }
         let now_ns = Monotonic.now_ns();
         let demand = servo.demand(now_ns);
         let feedback = {

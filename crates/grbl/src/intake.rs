@@ -30,6 +30,8 @@ pub(crate) struct Line {
     pub(crate) asked_ns: u64,
     /// Its reader stood still before it was heard.
     pub(crate) is_late: bool,
+    /// It is a question that was answered before its turn, but for its `ok`.
+    pub(crate) is_told: bool,
 }
 
 /// Where telnet is.
@@ -95,6 +97,7 @@ impl Intake {
             bytes: bytes + 1,
             asked_ns: 0,
             is_late: false,
+            is_told: false,
         }
     }
 

@@ -70,6 +70,7 @@ impl JogLine {
             return Err((ErrorNumber::NO_AXES, "a jog needs an axis"));
         }
         match feed {
+            Some(feed) if feed < 0.0 => Err((ErrorNumber::NEGATIVE, "F is below 0")),
             Some(feed) if feed > 0.0 => Ok(Self {
                 axes,
                 is_incremental: is_incremental && !in_machine,
@@ -106,6 +107,7 @@ mod tests {
         assert_eq!(number("G91G0X1F1000"), 16);
         assert_eq!(number("G91X1"), 22);
         assert_eq!(number("G91X1F0"), 22);
+        assert_eq!(number("G91X1F-100"), 4);
         assert_eq!(number("F100"), 26);
         assert_eq!(number("XF100"), 2);
         assert_eq!(number("X1M3F100"), 16);

@@ -49,6 +49,7 @@ mod session;
 mod settings;
 mod state;
 mod stream;
+mod words;
 
 pub use act::Act;
 pub use alarm::Alarm;

@@ -2,6 +2,7 @@
 
 use crate::LETTERS;
 use crate::error::ErrorNumber;
+use crate::words::{Word, without_comments};
 
 /// What a line wants.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,17 +29,24 @@ pub(crate) enum Wanted {
 }
 
 impl Wanted {
+    /// Whether it only asks.
+    pub(crate) const fn is_question(&self) -> bool {
+        matches!(
+            self,
+            Self::Help
+                | Self::Settings
+                | Self::Parameters
+                | Self::Modes
+                | Self::BuildInfo
+                | Self::StartupLines
+        )
+    }
+
     /// Whether it is refused while the machine moves.
     pub(crate) const fn is_for_rest(&self) -> bool {
         matches!(
             self,
-            Self::Jog(_)
-                | Self::Settings
-                | Self::Set(..)
-                | Self::Parameters
-                | Self::Check
-                | Self::Home(_)
-                | Self::Sleep
+            Self::Jog(_) | Self::Set(..) | Self::Check | Self::Home(_) | Self::Sleep
         )
     }
 }
@@ -89,21 +97,35 @@ fn other(statement: &str) -> Wanted {
     }
 }
 
-/// A line without comments and spaces, in capitals.
-pub(crate) fn without_comments(text: &str) -> String {
-    let mut bare = String::with_capacity(text.len());
-    let mut is_comment = false;
-    for character in text.chars() {
-        match character {
-            ')' => is_comment = false,
-            _ if is_comment => {}
-            '(' => is_comment = true,
-            ';' => break,
-            ' ' | '\t' => {}
-            _ => bare.push(character.to_ascii_uppercase()),
-        }
+/// Why a line is refused to senders that the machine's language takes: grbl refuses it, and it does nothing, or what no
+/// sender shows.
+pub(crate) fn not_of_senders(words: &[Word]) -> Option<(ErrorNumber, &'static str)> {
+    let has = |letter: char, value: f64| {
+        let is_it = |word: &Word| word.letter == letter && word.value == Some(value);
+        words.iter().any(is_it)
+    };
+    let sets_system = has('G', 10.0) && (has('L', 2.0) || has('L', 20.0));
+    if sets_system && words.iter().any(|word| word.letter == 'R') {
+        let why = "R turns the coordinate system, which no sender shows: have a program of the machine do it";
+        return Some((ErrorNumber::UNSUPPORTED, why));
     }
-    bare
+    if sets_system && !names_axis(words) {
+        return Some((ErrorNumber::NO_AXES, "G10 without an axis sets nothing"));
+    }
+    if has('G', 43.1) && !names_axis(words) {
+        return Some((ErrorNumber::NO_LENGTH, "G43.1 without Z sets no length"));
+    }
+    None
+}
+
+/// Whether a line is about machine coordinates (G53) and names no axis: grbl takes it, and nothing moves.
+pub(crate) fn is_idle_g53(words: &[Word]) -> bool {
+    let is_g53 = |word: &Word| word.letter == 'G' && word.value == Some(53.0);
+    words.iter().any(is_g53) && !names_axis(words)
+}
+
+fn names_axis(words: &[Word]) -> bool {
+    words.iter().any(|word| LETTERS.contains(&word.letter))
 }
 
 #[cfg(test)]

@@ -27,6 +27,9 @@ pub enum JobIntent {
     Close,
     /// It is to end: the motion comes to rest on the path.
     Cancel,
+    /// There is none: modes and offsets are to be those of a machine that was switched on. It is asked for until it is
+    /// told to be over.
+    Reset,
 }
 
 /// A request to the planner's service.
@@ -148,6 +151,8 @@ pub(crate) struct Stream {
     read: u64,
     /// Lines of jobs before.
     before: u64,
+    /// A reset of modes and offsets that is not done: its number, once there is no job.
+    reset: Option<u64>,
 }
 
 impl Stream {
@@ -162,6 +167,17 @@ impl Stream {
 
     pub(crate) fn has_unread(&self) -> bool {
         !self.unread.is_empty()
+    }
+
+    /// Modes and offsets are to be reset. There is no job.
+    pub(crate) const fn reset(&mut self) {
+        self.job += 1;
+        self.reset = Some(self.job);
+    }
+
+    /// Whether a reset of modes and offsets is not done.
+    pub(crate) const fn is_resetting(&self) -> bool {
+        self.reset.is_some()
     }
 
     /// The number of a line of the present job among all lines.
@@ -223,8 +239,11 @@ impl Stream {
         let wish = match self.phase {
             Phase::None => {
                 return Request {
-                    job: 0,
-                    wish: JobIntent::Ask,
+                    job: self.reset.unwrap_or(0),
+                    wish: match self.reset {
+                        Some(_) => JobIntent::Reset,
+                        None => JobIntent::Ask,
+                    },
                     first: 1,
                     lines: Vec::new(),
                     asked_ns: 0,
@@ -260,6 +279,9 @@ impl Stream {
     /// What came of lines.
     pub(crate) fn hear(&mut self, told: &Told) -> Vec<Outcome> {
         let mut outcomes = Vec::new();
+        if self.reset == Some(told.job) && told.stage == Stage::Over(End::Done) {
+            self.reset = None;
+        }
         if self.phase == Phase::None || told.job != self.job {
             return outcomes;
         }
@@ -301,6 +323,8 @@ impl Stream {
     /// Nobody executes lines.
     pub(crate) fn lose_service(&mut self, why: &str) -> Option<Outcome> {
         let phase = core::mem::take(&mut self.phase);
+        // Another one begins as if it were reset.
+        self.reset = None;
         match phase {
             Phase::None | Phase::Cancelling => None,
             Phase::Open if self.taken == 0 => Some(Outcome::NotBegun(why.to_owned())),

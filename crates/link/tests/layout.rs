@@ -172,7 +172,7 @@ layout!(job_reply, JobReply, "glidepath.JobReply.v3", 1048,
     JobReply { state: 1, ..Zeroable::zeroed() }, {
     client: 0, number: 8, state: 16, reserved: 20, text: 24,
 });
-layout!(lines_request, LinesRequest, "glidepath.LinesRequest.v1", 1200,
+layout!(lines_request, LinesRequest, "glidepath.LinesRequest.v2", 1200,
     LinesRequest { wish: 1, ahead_t: 1.0, ..Zeroable::zeroed() }, {
     client: 0, number: 8, asked_ns: 16, first: 24, ahead_t: 32, wish: 40, reserved: 44, name: 48, text: 176,
 });

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! It is the other side of the interpolator in tests, and what `glidepath servo` plays setpoints on.
-//! It reads no clock and does no I/O: it is stepped, and steps of about a millisecond are right.
+//! It reads no clock and does no I/O: it is stepped, and steps of about a millisecond are right. Where more than one
+//! setpoint arrives between two steps, [`Plant::hear`] takes each of them.
 //!
 //! ```
 //! use glidepath_link::{Setpoint, servo::JointState};

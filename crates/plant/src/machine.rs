@@ -181,6 +181,23 @@ impl Plant {
         }
     }
 
+    /// Carries out the events of a setpoint that has arrived, once. Where several arrive between two steps, each is to
+    /// be heard in its order: [`step`](Self::step) is given the last of them alone.
+    pub fn hear(&mut self, setpoint: &Setpoint) {
+        let which = (setpoint.boot_id, setpoint.number);
+        if self.carried_out == Some(which) {
+            return;
+        }
+        if self.carried_out.is_some_and(|(life, _)| life != which.0) {
+            // What another life of the interpolator has told is nobody's any more.
+            self.spindle.take(Event::MCode(5));
+        }
+        self.carried_out = Some(which);
+        for event in setpoint.events().iter().flat_map(EventRecord::event) {
+            self.spindle.take(event);
+        }
+    }
+
     /// Goes on to a time, ns of the clock by which feedback is stamped. `setpoint` is the last one
     /// that arrived, `demand` what the servo library makes of it.
     #[allow(
@@ -195,7 +212,7 @@ impl Plant {
         let enable = if self.has_emergency { 0 } else { enable };
         if let Some(setpoint) = setpoint {
             (self.reference, self.setpoint_number) = (setpoint.reference, setpoint.number);
-            self.carry_out(setpoint);
+            self.hear(setpoint);
             if now_ns > setpoint.apply_ns.saturating_add(SILENT_NS) {
                 // Nobody is there who could stop it.
                 self.spindle.take(Event::MCode(5));
@@ -216,21 +233,6 @@ impl Plant {
         let sample = self.measured();
         self.under_way.push_back(sample);
         self.number += 1;
-    }
-
-    /// The events of a setpoint, once.
-    fn carry_out(&mut self, setpoint: &Setpoint) {
-        let which = (setpoint.boot_id, setpoint.number);
-        if self.carried_out != Some(which) {
-            if self.carried_out.is_some_and(|(life, _)| life != which.0) {
-                // What another life of the interpolator has told is nobody's any more.
-                self.spindle.take(Event::MCode(5));
-            }
-            self.carried_out = Some(which);
-            for event in setpoint.events().iter().flat_map(EventRecord::event) {
-                self.spindle.take(event);
-            }
-        }
     }
 
     fn feel(&mut self, step_ns: u64) {
@@ -387,5 +389,23 @@ mod tests {
             plant.spindle().1.abs() < 1e-9,
             "another life has not told it to turn"
         );
+    }
+
+    #[test]
+    fn what_setpoints_tell_that_arrive_together_is_all_carried_out() {
+        let begin_ns = 5_000_000_000;
+        let (mut plant, setpoint) = turning(begin_ns);
+        let mut next = setpoint;
+        (next.number, next.event_count) = (2, 0);
+        assert!(next.tell(EventRecord::new(Event::MCode(5), 0)));
+        let mut last = next;
+        (last.number, last.event_count) = (3, 0);
+        plant.hear(&next);
+        for ms in 300..1000 {
+            last.apply_ns = begin_ns + ms * 1_000_000;
+            plant.hear(&last);
+            plant.step(last.apply_ns, Some(&last), None);
+        }
+        assert!(plant.spindle().1.abs() < 1e-9, "M5 was told in between");
     }
 }

@@ -1,6 +1,7 @@
 //! Tests of senders of grbl: they stream, hold, stop, jog and go away, and the machine does what
 //! they mean.
 
+mod left_on;
 mod sender;
 
 use std::time::{Duration, Instant};

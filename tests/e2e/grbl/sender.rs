@@ -229,6 +229,11 @@ impl Sender {
             .to_owned()
     }
 
+    /// The report that has come last.
+    pub(crate) fn report(&self) -> &str {
+        &self.report
+    }
+
     pub(crate) fn wait_for_state(&mut self, wanted: &str) {
         let begun = Instant::now();
         loop {

@@ -108,17 +108,18 @@ impl Interpreter {
             Some(Stop::End) => {
                 self.end_compensation(out)?;
                 self.end_offsets();
+                self.end_auxiliary(out);
                 AfterBlock::End
             }
             Some(Stop::Program(number)) => {
                 self.push(out, ItemKind::Event(Event::ProgramStop(number)));
                 AfterBlock::Continue
             }
-            Some(Stop::Optional) => {
+            Some(Stop::Optional) if self.options.stops_at_m1 => {
                 self.push(out, ItemKind::Event(Event::OptionalStop));
                 AfterBlock::Continue
             }
-            None => AfterBlock::Continue,
+            Some(Stop::Optional) | None => AfterBlock::Continue,
         })
     }
 

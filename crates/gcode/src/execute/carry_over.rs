@@ -8,7 +8,6 @@ use glidepath_geometry::Plane;
 
 use crate::execute::power_on::{motion_at_start, siemens_x_at_start};
 use crate::execute::program::Program;
-use crate::execute::state::coolant::Coolant;
 use crate::execute::state::fanuc_modal::FanucModal;
 use crate::execute::state::in_force::{InForce, InForceParts};
 use crate::execute::state::modal::Modal;
@@ -39,13 +38,12 @@ impl<R: BufRead> Program<R> {
                 modal.feed_mode = FeedMode::PerMinute;
             }
             modal.motion = Some(motion_at_start(self.block.dialect).unwrap_or(Motion::Linear));
+            // M2 and M30 have stopped it; the percent line at the end does not.
             state.spindle = Spindle {
-                turning: None,
                 is_rigid: false,
-                is_axis: false,
+                is_axis: state.spindle.stands_for_tap(),
                 ..state.spindle
             };
-            state.coolant = Coolant::default();
             state.overrides_off = false;
             state.arc_feed = self.arc_feed_at_start();
             siemens_x_at_start(&interpreter.options, &mut state);

@@ -1,11 +1,13 @@
-//! The end of a program: what its blocks have left open, and the offsets that end with it.
+//! The end of a program: what its blocks have left open, the offsets that end with it, and the spindle and the
+//! coolant that stop at it.
 
 use glidepath_geometry::AxisVector;
-use glidepath_program::Item;
+use glidepath_program::{Event, Item, ItemKind};
 
 use crate::diagnostic::block_diagnostic::Outcome;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
+use crate::execute::state::coolant::Coolant;
 use crate::execute::state::fanuc_offsets::FanucFrames;
 use crate::execute::state::frame::Frame;
 use crate::syntax::block::Block;
@@ -36,5 +38,18 @@ impl Interpreter {
         self.state.offsets.fanuc.local = AxisVector::zeros();
         self.state.offsets.fanuc.active = None;
         self.state.offsets.fanuc.frames = FanucFrames::default();
+    }
+
+    /// M2 and M30 stop the spindle and the coolant, in every language that has them (LinuxCNC, "M2, M30"; grbl, which
+    /// does it in `gc_execute_line`; Haas, "M30"; SINUMERIK, MD 35040). What is off is not told again.
+    pub(crate) fn end_auxiliary(&mut self, out: &mut Vec<Item>) {
+        if self.state.spindle.turning.is_some() {
+            self.turn_spindle(None);
+            self.push(out, ItemKind::Event(Event::MCode(5)));
+        }
+        if self.state.coolant != Coolant::default() {
+            self.state.coolant = Coolant::default();
+            self.push_passing_code(9, out);
+        }
     }
 }

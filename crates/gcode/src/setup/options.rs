@@ -33,6 +33,8 @@ pub struct Options {
     pub default_feed_mm_min: Option<f64>,
     /// Skips lines that start with a slash.
     pub block_delete: bool,
+    /// M1 stops. Senders of grbl are not stopped by it: they have no switch for it, and grbl reads over it.
+    pub stops_at_m1: bool,
     /// Where the machine stands, in machine coordinates.
     pub start: AxisVector,
     /// Coordinate systems, reference positions and the offset of G92 to begin with.
@@ -184,7 +186,7 @@ impl Options {
 }
 
 impl Default for Options {
-    /// All nine axes without soft limits, no default feedrate, block delete off, at machine zero,
+    /// All nine axes without soft limits, no default feedrate, block delete off, M1 stops, at machine zero,
     /// no offsets, no tool table, no subroutines in other files, LinuxCNC's language, nothing connected,
     /// splines to a micrometre.
     fn default() -> Self {
@@ -192,6 +194,7 @@ impl Default for Options {
             machine: Machine::unlimited(),
             default_feed_mm_min: None,
             block_delete: false,
+            stops_at_m1: true,
             start: AxisVector::zeros(),
             offsets: WorkOffsets::default(),
             tools: None,

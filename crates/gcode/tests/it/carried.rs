@@ -8,7 +8,7 @@ use glidepath_gcode::{
     Tool, ToolTable,
 };
 use glidepath_geometry::AxisVector;
-use glidepath_program::{Item, ItemKind, Rate};
+use glidepath_program::{Event, Item, ItemKind, Rate};
 
 fn options(dialect: Dialect) -> Options {
     let mut tools = ToolTable::new();
@@ -190,4 +190,56 @@ fn a_program_of_a_control_begins_in_its_motion_code() {
         first_rate(("G1 X5 F600\n", Dialect::Fanuc), Dialect::Fanuc),
         Rate::Feed(10.0)
     );
+}
+
+/// What stops at the end: LinuxCNC's manual of M2 and M30 ("the spindle is stopped, as if by M5, coolant as if by M9"),
+/// grbl's `gc_execute_line`, Haas' of M30.
+#[test]
+fn the_end_of_a_program_stops_what_is_on() {
+    let events = |text: &str, dialect| -> Vec<Event> {
+        let items = items(text, dialect, None).into_iter().flatten();
+        items
+            .filter_map(|item| match item.kind {
+                ItemKind::Event(event) => Some(event),
+                _ => None,
+            })
+            .collect()
+    };
+    for dialect in [Dialect::LinuxCnc, Dialect::Fanuc, Dialect::Siemens] {
+        for end in ["M2", "M30"] {
+            let on = format!("M3 S1000\nM8\nG1 X1 F100\n{end}\n");
+            let told = events(&on, dialect);
+            let last = &told[told.len() - 2..];
+            assert_eq!(last, [Event::MCode(5), Event::PassingCode(9)], "{on}");
+            assert!(left_by(&on, dialect).words().contains(" M5 M9 "), "{on}");
+            let off = events(&format!("M3 S1000\nM8\nM5 M9\n{end}\n"), dialect);
+            assert_eq!(off.len(), 5, "nothing is told twice: {off:?}");
+        }
+    }
+    // The percent line ends the reading of a file, and stops nothing: what follows is told so.
+    let open = "%\nM3 S1000\nM8\nG1 X1 F100\n%\n";
+    let stops = |event: &Event| matches!(event, Event::MCode(5) | Event::PassingCode(9));
+    assert!(!events(open, Dialect::LinuxCnc).iter().any(stops));
+    let words = left_by(open, Dialect::LinuxCnc).words();
+    assert!(words.contains(" M3 M8 "), "{words}");
+}
+
+/// `gc_init` of grbl, and what is of the machine and stays.
+#[test]
+fn a_reset_puts_in_force_what_a_machine_begins_with() {
+    let text = "G20 G91 G18 G55 G43.1 Z1 S1000 M3 M8 T7\nG10 L2 P3 X2\nG92 X1\n#31=4\nG1 X1 F10\n";
+    let left = left_by(text, Dialect::LinuxCnc);
+    let begin = left_by("", Dialect::LinuxCnc);
+    let reset = left.reset_to(&begin);
+    assert_eq!(reset.words(), "G0 G54 G17 G21 G90 G94 M5 M9 T7 F600 S0");
+    let beside = reset.position_offsets();
+    assert!(beside.shift.norm() + beside.tool.norm() < 1e-12);
+    // Parameters are not grbl's.
+    let next = items("G21 G90 G0 X#31", Dialect::LinuxCnc, Some(reset.clone()));
+    let ItemKind::Move { segment, .. } = &next[0].as_ref().unwrap().kind else {
+        panic!("a move");
+    };
+    assert!((segment.end()[0] - 4.0).abs() < 1e-12);
+    let turning = reset.turning_as(&left);
+    assert!(turning.words().contains(" M3 M8 "), "{}", turning.words());
 }

@@ -113,13 +113,13 @@ fn codes_are_awaited_in_front_of_the_next_feed_or_at_the_end_of_their_block() {
         ],
     );
     // In a line, and in front of arcs, cycles and searches.
-    expect("M3 G1 X1\nM2\n", &["M3", "wait M3", "feed"]);
-    expect("M4\nG2 X2 I1\nM2\n", &["M4", "wait M4", "feed"]);
-    expect("M3\nG38.3 X5\nM2\n", &["M3", "wait M3", "feed"]);
+    expect("M3 G1 X1\nM2\n", &["M3", "wait M3", "feed", "M5"]);
+    expect("M4\nG2 X2 I1\nM2\n", &["M4", "wait M4", "feed", "M5"]);
+    expect("M3\nG38.3 X5\nM2\n", &["M3", "wait M3", "feed", "M5"]);
     expect(
         "M3 M8\nG81 X1 Z-1 R1\nM2\n",
         &[
-            "M3", "M8", "rapid", "rapid", "wait M8", "wait M3", "feed", "rapid",
+            "M3", "M8", "rapid", "rapid", "wait M8", "wait M3", "feed", "rapid", "M5", "M9",
         ],
     );
     expect(
@@ -129,13 +129,16 @@ fn codes_are_awaited_in_front_of_the_next_feed_or_at_the_end_of_their_block() {
     expect("G0 M110 X1\nM2\n", &["M110", "rapid", "wait M110"]);
     expect("M110\nM2\n", &["M110", "wait M110"]);
     // What is told again, or is void, is not waited for twice.
-    expect("M3\nM4\nG1 X1\nM2\n", &["M3", "M4", "wait M4", "feed"]);
+    expect(
+        "M3\nM4\nG1 X1\nM2\n",
+        &["M3", "M4", "wait M4", "feed", "M5"],
+    );
     expect(
         "M3\nM5\nM8\nM9\nG1 X1\nM2\n",
         &["M3", "M5", "M8", "M9", "feed"],
     );
-    // The end of the program is no feed.
-    expect("M3\nG0 X1\nM2\n", &["M3", "rapid"]);
+    // The end of the program is no feed, and stops what is on.
+    expect("M3\nG0 X1\nM2\n", &["M3", "rapid", "M5"]);
     // A line that was typed has to have its answer: the feed may come with the next one.
     expect("M3\nG0 X1\n", &["M3", "rapid", "wait M3"]);
 }

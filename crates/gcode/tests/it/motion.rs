@@ -268,6 +268,7 @@ fn a_block_acts_in_the_prescribed_order() {
             (2, event(Event::PassingCode(9))),
             (2, event(Event::OptionalStop)),
             (3, event(Event::ProgramStop(60))),
+            (4, event(Event::MCode(5))),
         ]
     );
 }

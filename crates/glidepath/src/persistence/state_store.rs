@@ -191,6 +191,18 @@ impl StateStore {
         self.end(position)
     }
 
+    /// Programs begin in G54 from now on: the machine was reset.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub(crate) fn in_first_system(mut self) -> Result<(), StateError> {
+        if self.kept.offsets.active == 1 {
+            return Ok(());
+        }
+        self.kept.offsets.active = 1;
+        self.end(None)
+    }
+
     /// Nothing of the program was executed: what was left before it is what can be resumed.
     pub(crate) fn not_begun(mut self) -> Result<(), StateError> {
         self.kept.under_way = self.replaced.take();

@@ -26,4 +26,6 @@ pub(super) enum Waiting {
 pub(super) struct Reset {
     pub(super) since: Duration,
     pub(super) has_welcome: bool,
+    /// Modes and offsets were asked to be reset.
+    pub(super) resets_modes: bool,
 }

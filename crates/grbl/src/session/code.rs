@@ -5,15 +5,17 @@ use std::time::Duration;
 use super::awaited::Waiting;
 use super::{Latch, Session};
 use crate::error::ErrorNumber;
-use crate::line::{Wanted, wanted};
+use crate::line::{Wanted, is_idle_g53, not_of_senders, wanted};
 use crate::state::State;
 use crate::stream::{Outcome, Refused};
+use crate::words::{without_comments, words};
 use crate::{Act, Alarm, Doing};
 
 impl Session {
     /// Does what lines want, as far as that is possible now.
     pub(super) fn process(&mut self, now: Duration) {
         while self.process_next(now) {}
+        self.tell_questions();
     }
 
     /// Does what the next line wants. Returns whether there may be more to do.
@@ -32,6 +34,7 @@ impl Session {
             return is_first;
         }
         let (text, asked_ns, is_late) = (line.text.clone(), line.asked_ns, line.is_late);
+        let line_is_told = line.is_told;
         match wanted(&text) {
             Wanted::Nothing if is_first => {
                 self.answer_ok();
@@ -44,6 +47,11 @@ impl Session {
                 self.answer_error(ErrorNumber::NOT_IDLE, why);
                 true
             }
+            // The answer was told while lines before it waited.
+            _ if is_first && line_is_told => {
+                self.answer_ok();
+                true
+            }
             statement if is_first => self.process_statement(statement, now),
             // Answers come in order.
             _ => false,
@@ -52,6 +60,20 @@ impl Session {
 
     fn process_code(&mut self, text: &str, asked_ns: u64) -> bool {
         let is_first = self.given == 0;
+        let words = words(text);
+        let without_g53;
+        let text = if is_idle_g53(&words) {
+            without_g53 = without_comments(text).replace("G53", "");
+            &without_g53
+        } else {
+            text
+        };
+        if let Some((number, why)) = not_of_senders(&words) {
+            if is_first {
+                self.answer_error(number, why);
+            }
+            return is_first;
+        }
         match self.state() {
             State::Alarm | State::Sleep | State::Jog | State::Home if !is_first => false,
             State::Alarm | State::Sleep => {
@@ -92,7 +114,7 @@ impl Session {
         match refused {
             None => self.answer_ok(),
             Some(refused) => {
-                let number = ErrorNumber::of_diagnostic(&refused.name);
+                let number = self.number_of(refused);
                 self.answer_error(number, &refused.text);
             }
         }
@@ -147,13 +169,19 @@ impl Session {
             0 => refused.text.clone(),
             column => format!("column {column}: {}", refused.text),
         };
-        let number = ErrorNumber::of_diagnostic(&refused.name);
+        let number = self.number_of(refused);
         self.answer_given(Some(number), &text);
         // What is behind it in the sender's stream is not executed without somebody who says so.
         if refused.is_in_motion && self.latch == Latch::Free {
             self.latch = Latch::Hold;
             self.message("The machine comes to rest before the line that was refused");
         }
+    }
+
+    /// The number for the oldest line, which was refused.
+    fn number_of(&self, refused: &Refused) -> ErrorNumber {
+        let line = self.lines.front().map_or("", |line| line.text.as_str());
+        ErrorNumber::of_refusal(&refused.name, &words(line))
     }
 
     /// Answers the oldest line, which was given. Where it was dropped meanwhile, nobody waits for an answer.

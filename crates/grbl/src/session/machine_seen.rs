@@ -43,7 +43,7 @@ impl Session {
                 State::Hold { is_at_rest: true }
             }
             // What was read last may not have begun.
-            Doing::Idle | Doing::NotHomed if !self.is_urgent() => State::Idle,
+            Doing::Idle | Doing::NotHomed if !self.has_lines() => State::Idle,
             // A motion begins with a setpoint at rest, and lines that were read are planned a moment later.
             Doing::Waiting if !self.stream.has_unread() && self.ahead_t <= 0.0 => State::Idle,
             _ => State::Run,

@@ -4,6 +4,7 @@ mod answers;
 mod awaited;
 mod code;
 mod machine_seen;
+mod questions;
 mod real_time;
 mod statement;
 #[cfg(test)]
@@ -121,27 +122,31 @@ impl Session {
         }
     }
 
-    /// The sender has gone. What it sent last is not executed: lines that were read are, up to the end of the
-    /// last, and jogs come to rest.
+    /// The sender has gone. Lines that were read are executed, up to the end of the last, and jogs come to rest. One
+    /// that leaves with lines unanswered, or in the middle of one, is lost: these lines are dropped, and the next sender
+    /// finds a hold.
     pub fn lost(&mut self) {
         if self.jogging.cancel() {
             self.acts.push(Act::LetGo);
         }
+        // One that was told `ok` for all that it sent has left when it was done, as far as anybody can tell: what it
+        // sent is executed to its end.
+        let dropped = self.lines.len();
+        let is_cut = dropped > 0 || self.intake.open_bytes() > 0;
         // At rest, with all executed that was read; the job may be open for a moment yet.
         let rests = matches!(self.machine.doing, Doing::Waiting | Doing::Idle)
             && !self.stream.has_unread()
             && self.ahead_t <= 0.0;
         let was_open = self.stream.is_open() && !rests;
-        let dropped = self.lines.len();
         self.stream.abandon();
         self.lines.clear();
         self.given = 0;
         self.intake = Intake::default();
         (self.waiting, self.is_checking) = (Waiting::Nothing, false);
-        if was_open {
+        if was_open && is_cut {
             self.latch = Latch::Hold;
         }
-        if was_open || dropped > 0 {
+        if dropped > 0 || was_open && is_cut {
             let lines = if dropped == 1 { "line" } else { "lines" };
             self.note = Some(format!(
                 "The sender before was lost: {dropped} {lines} of it dropped"
@@ -240,6 +245,11 @@ impl Session {
     /// Whether the service is to be asked at once, and not only now and then.
     #[must_use]
     pub fn is_urgent(&self) -> bool {
+        self.has_lines() || self.stream.is_resetting()
+    }
+
+    /// Whether lines are executed, or about to be.
+    fn has_lines(&self) -> bool {
         self.stream.is_open() || self.stream.has_unread()
     }
 

@@ -33,7 +33,7 @@ impl Session {
             }
             RealTime::NotByHand => self.tell_of_spindle(),
             RealTime::Modes => {
-                let modes = format!("[GC:{}]", self.facts.modes);
+                let modes = format!("[GC:{}]", self.modes());
                 self.say(&modes);
             }
             RealTime::SingleBlock => self.acts.push(Act::ToggleSingleBlock),

@@ -8,12 +8,13 @@ use crate::error::ErrorNumber;
 use crate::jog::JogLine;
 use crate::line::Wanted;
 use crate::numbers::Units;
-use crate::report::BLOCKS;
 use crate::state::State;
 use crate::{Act, Doing, LETTERS};
 
 /// How near to the end of travel a place is that is inside, mm or degrees.
 const INSIDE_MM: f64 = 1e-6;
+/// The largest `$10`: grblHAL has bits above those of grbl, which mean nothing here.
+const MOST_MASK: f64 = 65_535.0;
 
 impl Session {
     /// Does what the oldest line wants. Returns whether it was answered.
@@ -28,28 +29,14 @@ impl Session {
         match wanted {
             Wanted::Nothing | Wanted::Code => return false,
             Wanted::Refused(number, why) => self.answer_error(number, why),
-            Wanted::Modes => {
-                let modes = format!("[GC:{}]", self.facts.modes);
-                self.say_all_and_ok(&[modes]);
-            }
-            Wanted::Help => self.say_all_and_ok(&[
-                "[HLP:$$ $# $G $I $N $x=val $J=line $SLP $C $X $H ~ ! ? ctrl-x]".to_owned(),
-            ]),
-            Wanted::BuildInfo => self.say_all_and_ok(&[
-                format!("[VER:1.1h.20190825:Glidepath {}]", self.settings.version),
-                format!("[OPT:VNMHZ,{BLOCKS},{}]", self.settings.rx_bytes),
-            ]),
-            Wanted::StartupLines => {
-                self.say_all_and_ok(&["$N0=".to_owned(), "$N1=".to_owned()]);
-            }
-            Wanted::Parameters if is_quiet || state.is_held() || state == State::Sleep => {
-                let lines = self.facts.lines(self.units, &self.settings.axes);
-                self.say_all_and_ok(&lines);
-            }
-            Wanted::Settings if is_quiet || state.is_held() || state == State::Sleep => {
-                let is_inch = self.units == Units::Inch;
-                let lines = self.settings.lines(self.mask, is_inch);
-                self.say_all_and_ok(&lines);
+            Wanted::Help
+            | Wanted::Settings
+            | Wanted::Parameters
+            | Wanted::Modes
+            | Wanted::BuildInfo
+            | Wanted::StartupLines => {
+                self.tell(&wanted);
+                self.answer_ok();
             }
             Wanted::Set(number, value) if is_quiet => self.set(number, value),
             Wanted::Unlock => return self.unlock(now),
@@ -61,13 +48,7 @@ impl Session {
             Wanted::Jog(text) if matches!(state, State::Idle | State::Jog) => {
                 return self.jog(&text);
             }
-            Wanted::Parameters
-            | Wanted::Settings
-            | Wanted::Set(..)
-            | Wanted::Check
-            | Wanted::Sleep
-            | Wanted::Home(_)
-            | Wanted::Jog(_) => {
+            Wanted::Set(..) | Wanted::Check | Wanted::Sleep | Wanted::Home(_) | Wanted::Jog(_) => {
                 let why = format!("not while the machine shows {state}");
                 self.answer_error(ErrorNumber::NOT_IDLE, &why);
             }
@@ -75,21 +56,14 @@ impl Session {
         true
     }
 
-    fn say_all_and_ok(&mut self, lines: &[String]) {
-        for line in lines {
-            self.say(line);
-        }
-        self.answer_ok();
-    }
-
     /// `$10` and `$13` are of the connection; everything else is of the machine.
     fn set(&mut self, number: u32, value: f64) {
         match number {
-            10 if (0.0..=255.0).contains(&value) => {
+            10 if (0.0..=MOST_MASK).contains(&value) => {
                 #[allow(
                     clippy::cast_possible_truncation,
                     clippy::cast_sign_loss,
-                    reason = "between 0 and 255"
+                    reason = "between 0 and 65535"
                 )]
                 let mask = value as u32;
                 self.mask = mask;
@@ -104,11 +78,22 @@ impl Session {
                 self.reporter.begin_anew();
                 self.answer_ok();
             }
+            // Senders write settings back that they have read.
+            _ if self.is_setting(number, value) => self.answer_ok(),
             _ => {
                 let why = "the configuration of the machine sets it, and no sender does";
                 self.answer_error(ErrorNumber::STATEMENT, why);
             }
         }
+    }
+
+    /// Whether a setting has that value.
+    fn is_setting(&self, number: u32, value: f64) -> bool {
+        let lines = self.settings.lines(self.mask, self.units == Units::Inch);
+        let name = format!("${number}=");
+        let mut values = lines.iter().filter_map(|line| line.strip_prefix(&name));
+        let is_it = |told: f64| (told - value).abs() < 5e-4;
+        values.any(|told| told.parse().is_ok_and(is_it))
     }
 
     fn unlock(&mut self, now: Duration) -> bool {

@@ -4,6 +4,11 @@ use super::*;
 use crate::{AXES, End, JobIntent, Refused, Stage};
 use std::collections::VecDeque;
 
+mod leaving;
+mod numbers;
+mod questions;
+mod resets;
+
 /// A machine that moves by hand in no time, and a service that reads a line at each look.
 struct Desk {
     session: Session,
@@ -14,6 +19,8 @@ struct Desk {
     taken: u64,
     read: u64,
     facts: Facts,
+    /// How often modes and offsets were reset.
+    resets: u32,
     /// Lines that were executed.
     executed: Vec<String>,
     acts: Vec<Act>,
@@ -43,6 +50,7 @@ impl Desk {
             taken: 0,
             read: 0,
             facts: Facts::default(),
+            resets: 0,
             executed: Vec::new(),
             acts: Vec::new(),
             is_full: false,
@@ -98,6 +106,13 @@ impl Desk {
 
     fn serve(&mut self) {
         let request = self.session.request();
+        if request.wish == JobIntent::Reset {
+            self.resets += 1;
+            self.facts = Facts::default();
+            let told = self.told(request.job, Stage::Over(End::Done));
+            self.session.told(&told, self.now);
+            return;
+        }
         if request.job > self.job {
             (self.job, self.taken, self.read, self.idle) = (request.job, 0, 0, 0);
             (self.over, self.refused) = (None, None);
@@ -118,20 +133,25 @@ impl Desk {
                 self.over = Some(End::Done);
             }
         }
-        let told = Told {
-            job: request.job,
-            stage: match (&self.over, request.job) {
-                (_, 0) => Stage::Unknown,
-                (Some(end), _) => Stage::Over(end.clone()),
-                (None, _) => Stage::Open,
-            },
+        let stage = match (&self.over, request.job) {
+            (_, 0) => Stage::Unknown,
+            (Some(end), _) => Stage::Over(end.clone()),
+            (None, _) => Stage::Open,
+        };
+        let told = self.told(request.job, stage);
+        self.session.told(&told, self.now);
+    }
+
+    fn told(&self, job: u64, stage: Stage) -> Told {
+        Told {
+            job,
+            stage,
             taken: self.taken,
             read: self.read,
             refused: self.refused.clone(),
             ahead_t: self.ahead_t,
             facts: self.facts.clone(),
-        };
-        self.session.told(&told, self.now);
+        }
     }
 
     fn read_a_line(&mut self) {
@@ -246,43 +266,6 @@ fn a_line_refused_in_motion_holds_what_is_behind_it_until_somebody_goes_on() {
 }
 
 #[test]
-fn a_hold_at_rest_keeps_lines_and_a_reset_out_of_it_is_no_alarm() {
-    let mut desk = Desk::new();
-    desk.says(b"!");
-    assert_eq!(desk.state(), "Hold:0");
-    assert!(desk.acts.is_empty());
-    assert_eq!(answers(&desk.says(b"G0 X20\n")), [""; 0]);
-    // bCNC does this after every job.
-    let said = desk.says(b"\x18$G\n");
-    assert!(said.contains(&"Grbl 1.1h ['$' for help]".to_owned()));
-    assert_eq!(
-        answers(&said),
-        ["ok"],
-        "the line before the reset is dropped"
-    );
-    assert!(!said.iter().any(|line| line.contains("ALARM")));
-    assert_eq!(desk.state(), "Idle");
-    assert!(desk.executed.is_empty() && desk.acts.is_empty());
-}
-
-#[test]
-fn a_reset_in_motion_ends_the_job_and_keeps_what_comes_behind_it() {
-    let mut desk = Desk::new();
-    desk.says(b"G1 X100 F100\n");
-    desk.machine.doing = Doing::Running;
-    desk.is_full = true;
-    desk.says(b"G1 X200\nG1 X300\n");
-    desk.is_full = false;
-    let said = desk.says(b"\x18G55\n");
-    assert!(desk.acts.contains(&Act::Abort));
-    let welcome = said.iter().position(|it| it.starts_with("Grbl")).unwrap();
-    assert_eq!(answers(&said[..welcome]), [""; 0]);
-    assert_eq!(answers(&said[welcome..]), ["ok"]);
-    assert_eq!(desk.executed, ["G1 X100 F100", "G55"]);
-    assert!(!said.iter().any(|line| line.contains("ALARM")));
-}
-
-#[test]
 fn a_machine_that_is_about_to_move_is_not_idle() {
     let mut desk = Desk::new();
     desk.ahead_t = 0.5;
@@ -294,40 +277,6 @@ fn a_machine_that_is_about_to_move_is_not_idle() {
     desk.ahead_t = 0.0;
     desk.looks(2);
     assert_eq!(desk.state(), "Idle");
-}
-
-/// The job is open for a moment yet when all of it is executed.
-#[test]
-fn a_sender_that_leaves_when_all_is_executed_is_not_lost() {
-    for (doing, ahead_t, is_lost) in [
-        (Doing::Idle, 0.0, false),
-        (Doing::Waiting, 0.0, false),
-        (Doing::Idle, 0.2, true),
-        (Doing::Running, 0.2, true),
-    ] {
-        let mut desk = Desk::new();
-        (desk.machine.doing, desk.ahead_t) = (doing, ahead_t);
-        desk.session.hear(b"G0 X1\n", desk.now);
-        desk.looks(4);
-        assert_eq!(answers(&desk.said()), ["ok"]);
-        desk.session.lost();
-        desk.session.connected(desk.now);
-        let said = desk.said();
-        let is_told = said.iter().any(|line| line.contains("was lost"));
-        assert_eq!(is_told, is_lost, "{doing:?} {ahead_t}: {said:?}");
-    }
-}
-
-#[test]
-fn settings_are_told_in_a_hold() {
-    let mut desk = Desk::new();
-    desk.says(b"G0 X1\n");
-    desk.machine.doing = Doing::Held;
-    desk.looks(1);
-    assert!(desk.state().starts_with("Hold"));
-    let said = desk.says(b"$$\n");
-    assert_eq!(answers(&said), ["ok"]);
-    assert!(said.iter().any(|line| line.starts_with("$110=")));
 }
 
 #[test]
@@ -408,29 +357,6 @@ fn a_job_that_somebody_else_ends_locks_the_machine() {
     assert!(said.contains(&"ALARM:3".to_owned()), "{said:?}");
     assert_eq!(answers(&said), ["error:9", "error:9"]);
     assert_eq!(desk.executed, ["G1 X1 F1"]);
-}
-
-#[test]
-fn a_sender_that_is_lost_leaves_a_hold_and_the_next_one_is_told() {
-    let mut desk = Desk::new();
-    desk.says(b"G1 X1 F1\n");
-    desk.machine.doing = Doing::Running;
-    desk.is_full = true;
-    desk.says(b"G1 X2\nG1 X3\nG1 X");
-    desk.session.lost();
-    desk.is_full = false;
-    desk.looks(5);
-    desk.machine.doing = Doing::Idle;
-    desk.looks(5);
-    assert_eq!(desk.executed, ["G1 X1 F1"]);
-    desk.session.connected(desk.now);
-    let said = desk.said();
-    assert!(
-        said.last().unwrap().contains("2 lines of it dropped"),
-        "{said:?}"
-    );
-    assert_eq!(desk.state(), "Hold:0");
-    assert_eq!(answers(&desk.says(b"~G0 X5\n")), ["ok"]);
 }
 
 #[test]

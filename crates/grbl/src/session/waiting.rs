@@ -24,11 +24,15 @@ impl Session {
         self.given = 0;
         self.intake.drop_open_line();
         self.cancel_jogs();
-        let was_open = self.stream.is_open();
         self.stream.cancel();
+        let is_off = matches!(
+            self.machine.doing,
+            Doing::Off | Doing::Faulted | Doing::Unknown
+        );
         if self.looks_for_home() {
             self.end_home();
-        } else if was_open || !self.machine.doing.is_free() {
+        } else if !is_off {
+            // At rest, too: it stops spindle and coolant.
             self.acts.push(Act::Abort);
         }
         (self.waiting, self.latch) = (Waiting::Nothing, Latch::Free);
@@ -38,13 +42,14 @@ impl Session {
         self.reset = Some(Reset {
             since: now,
             has_welcome,
+            resets_modes: false,
         });
         self.look_at_reset(now);
     }
 
-    /// Looks whether the machine rests.
+    /// Looks whether the machine rests, and whether modes and offsets are reset then.
     pub(super) fn look_at_reset(&mut self, now: Duration) {
-        let Some(reset) = self.reset else {
+        let Some(reset) = &mut self.reset else {
             return;
         };
         let is_late = now.saturating_sub(reset.since) >= REST_PATIENCE;
@@ -53,6 +58,15 @@ impl Session {
         if !rests && !is_late {
             return;
         }
+        if rests && reset.has_welcome && !is_late {
+            if !core::mem::replace(&mut reset.resets_modes, true) {
+                self.stream.reset();
+            }
+            if self.stream.is_resetting() {
+                return;
+            }
+        }
+        let reset = *reset;
         self.reset = None;
         self.ask_anew();
         if core::mem::take(&mut self.is_asleep) {

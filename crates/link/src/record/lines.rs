@@ -26,6 +26,9 @@ coded! {
         Close = 3,
         /// It is to end: it does not begin, or the motion comes to rest on the path.
         Cancel = 4,
+        /// There is no job: as soon as nothing is executed, the modes and offsets in force are to be those of a machine
+        /// that was switched on. It is asked again, with the same number, until it is [`LinesState::Done`].
+        Reset = 5,
     }
 }
 
@@ -35,7 +38,7 @@ impl LinesWish {
     pub const fn of_job(self) -> JobWish {
         match self {
             Self::Execute => JobWish::Execute,
-            Self::Ask | Self::Close => JobWish::Ask,
+            Self::Ask | Self::Close | Self::Reset => JobWish::Ask,
             Self::Cancel => JobWish::Cancel,
         }
     }
@@ -44,7 +47,7 @@ impl LinesWish {
 /// Lines to be executed, or a question about those that were sent.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.LinesRequest.v1")]
+#[type_name("glidepath.LinesRequest.v2")]
 pub struct LinesRequest {
     /// Who asks: any number that no other client has.
     pub client: u64,
@@ -79,7 +82,7 @@ impl LinesRequest {
 }
 
 impl Record for LinesRequest {
-    const NAME: &'static str = "glidepath.LinesRequest.v1";
+    const NAME: &'static str = "glidepath.LinesRequest.v2";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -96,9 +99,9 @@ coded! {
     pub enum LinesState {
         /// The service knows nothing of it, or was asked about none.
         Unknown = 1,
-        /// Lines are taken, read and executed.
+        /// Lines are taken, read and executed, or a reset is not done yet.
         Open = 2,
-        /// All that was read was executed.
+        /// All that was read was executed, or a reset is done.
         Done = 3,
         /// Likewise, and the line that was read last ended a program.
         ProgramEnd = 4,

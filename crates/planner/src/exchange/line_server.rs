@@ -31,6 +31,8 @@ pub(crate) struct SentJob {
 pub(crate) struct LineServer {
     server: Box<dyn Server<LinesRequest, LinesReply>>,
     known: Known,
+    /// Who wants modes and offsets reset.
+    wants_reset: Option<Client>,
 }
 
 /// What is known while nothing is executed.
@@ -40,6 +42,8 @@ struct Known {
     found: Found,
     /// Jobs that have ended, the last one last.
     past: VecDeque<(Client, LineInbox)>,
+    /// The reset that was done last.
+    reset: Option<Client>,
 }
 
 impl LineServer {
@@ -47,6 +51,7 @@ impl LineServer {
         Ok(Self {
             server: transport.lines_server()?,
             known: Known::default(),
+            wants_reset: None,
         })
     }
 
@@ -57,7 +62,7 @@ impl LineServer {
 
     /// Answers what came in while nothing is executed, and takes a job, if one came.
     pub(crate) fn take(&mut self) -> Result<Option<SentJob>, LinkError> {
-        let known = &self.known;
+        let (known, wants_reset) = (&self.known, &mut self.wants_reset);
         for _ in 0..REQUESTS_PER_TURN {
             let mut begun = None;
             let any = self.server.serve(&mut |request| {
@@ -65,6 +70,10 @@ impl LineServer {
                     && request.wish() == Ok(LinesWish::Execute)
                     && request.check().is_ok()
                     && known.past(request).is_none();
+                let client = (request.client, request.number);
+                if request.wish() == Ok(LinesWish::Reset) && known.reset != Some(client) {
+                    *wants_reset = Some(client);
+                }
                 if !begins {
                     return known.reply(request);
                 }
@@ -88,6 +97,13 @@ impl LineServer {
         Ok(None)
     }
 
+    /// Whether modes and offsets are to be reset. Whoever asks does it at once.
+    pub(crate) fn take_reset(&mut self) -> bool {
+        let client = self.wants_reset.take();
+        self.known.reset = client.or(self.known.reset);
+        client.is_some()
+    }
+
     /// Answers what came in while a job is executed, whose client and lines are given if it is made of lines.
     /// Returns what that client wants of it.
     pub(crate) fn serve(
@@ -107,7 +123,7 @@ impl LineServer {
                         match wish {
                             LinesWish::Close => lines.close(),
                             LinesWish::Execute => lines.take(request),
-                            LinesWish::Ask | LinesWish::Cancel => {}
+                            LinesWish::Ask | LinesWish::Cancel | LinesWish::Reset => {}
                         }
                         lines.reply(request)
                     }
@@ -154,6 +170,14 @@ impl Known {
                 ..nothing(LinesState::NotBegun)
             },
             (Ok(()), Some(lines)) => lines.reply(request),
+            (Ok(()), None) if request.wish() == Ok(LinesWish::Reset) => {
+                let is_done = self.reset == Some((request.client, request.number));
+                nothing(if is_done {
+                    LinesState::Done
+                } else {
+                    LinesState::Open
+                })
+            }
             (Ok(()), None) => nothing(LinesState::Unknown),
         }
     }

@@ -105,6 +105,9 @@ pub trait JobRunner {
         control: &mut Control<'_>,
     ) -> JobEnd;
 
+    /// A sender has reset its machine: modes and offsets in force are those of one that was switched on. Nothing moves.
+    fn reset(&mut self) {}
+
     /// How the machine is set up for the next job, if that is known.
     fn facts(&self) -> Option<LineFacts> {
         None

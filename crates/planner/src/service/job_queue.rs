@@ -161,6 +161,11 @@ impl JobQueue {
         Ok(())
     }
 
+    /// Whether a sender wants modes and offsets reset, which is to be done at once.
+    pub(crate) fn take_reset(&mut self) -> bool {
+        self.lines.take_reset()
+    }
+
     /// Whether a job waits for the machine.
     pub(crate) const fn has_waiting(&self) -> bool {
         self.waiting.is_some()

@@ -113,6 +113,12 @@ fn serve_all(
                 }
                 continue;
             }
+            Accepted::Reset => {
+                if let Some(runner) = runner.as_deref_mut() {
+                    runner.reset();
+                }
+                continue;
+            }
         };
         (control.notify)(&Notice::StreamOpened {
             session: stream.session(),
@@ -137,6 +143,8 @@ const fn ends_the_listener(error: &RunError) -> bool {
 enum Accepted {
     Stream(Box<Stream>, AxisVector),
     Job(Job, AxisVector),
+    /// A sender wants modes and offsets reset.
+    Reset,
 }
 
 struct Listener<'t> {
@@ -187,7 +195,7 @@ impl Listener<'_> {
             jobs.take(&mut |job, asked_ns| publisher.claim(&job.name(), asked_ns, control))?;
         }
         if !jobs.has_waiting() {
-            return Ok(None);
+            return Ok(jobs.take_reset().then_some(Accepted::Reset));
         }
         let doing = publisher.doing();
         let unwanted = jobs.serve_busy(POLL, &doing)?;

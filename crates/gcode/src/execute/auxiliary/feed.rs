@@ -51,6 +51,10 @@ impl Interpreter {
         if self.state.fanuc.is_feed_unsaid && block.is_lathe {
             return Err(unsaid(block));
         }
+        if feed == 0.0 && self.forgets_feed(block, motion) {
+            self.state.modal.feed = None;
+            return Ok(());
+        }
         if feed <= 0.0 {
             let message = format!("the feedrate F{feed} is not above zero");
             return Err(
@@ -63,6 +67,14 @@ impl Interpreter {
             self.state.modal.feed = Some(feed);
         }
         Ok(())
+    }
+
+    /// Whether F0 says that there is no feed, as on LinuxCNC and grbl, where the next move at a feed is refused that has
+    /// none. It is refused itself where its block moves, or F is a time.
+    fn forgets_feed(&self, block: &Block, motion: Option<Motion>) -> bool {
+        block.dialect == Dialect::LinuxCnc
+            && motion.is_none()
+            && self.state.modal.feed_mode != FeedMode::InverseTime
     }
 
     /// Refuses F without a point where it counts least increments of a feed; millimetres per minute it counts one

@@ -108,7 +108,7 @@ impl Interpreter {
     }
 
     /// An M code that needs no rest, unless the machine says where it is waited for.
-    pub(super) fn push_passing_code(&mut self, code: u32, out: &mut Vec<Item>) {
+    pub(crate) fn push_passing_code(&mut self, code: u32, out: &mut Vec<Item>) {
         let event = if self.options.m_codes.contains(code) {
             Event::MCode(code)
         } else {

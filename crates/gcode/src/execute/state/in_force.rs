@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::execute::motion::position_offsets::PositionOffsets;
 use crate::execute::parameters::Parameters;
 use crate::execute::state::coolant::Coolant;
+use crate::execute::state::modal::Modal;
 use crate::execute::state::offsets::Offsets;
 use crate::execute::state::program_state::State;
 use crate::execute::state::shared::Shared;
@@ -15,6 +16,7 @@ use crate::execute::state::words_in_force::words_in_force;
 use crate::setup::tool_table::ToolTable;
 use crate::setup::work_offsets::WorkOffsets;
 use crate::syntax::dialect::Dialect;
+use crate::syntax::modes::Motion;
 
 /// All that is in force behind a block: modes, feed, spindle, tool, offsets, parameters. Where the
 /// machine stands is no part of it. Clones are the same; it equals nothing but them.
@@ -162,6 +164,53 @@ impl InForce {
         if stops_coolant {
             parts.state.coolant = Coolant::default();
         }
+        Self(Arc::new(parts))
+    }
+
+    /// The same behind a reset as that of grbl (`gc_init`), on a machine where programs begin with `begin`: its modes, its
+    /// feed and its coordinate system, G0, spindle and coolant off, no offset of G92 and none of the tool. What is of the
+    /// machine stays: coordinate systems and reference positions, which `begin` has too, the tool in the spindle and its
+    /// table, parameters, what the probe has found.
+    #[must_use]
+    pub fn reset_to(&self, begin: &Self) -> Self {
+        let (own, first) = (&self.0.state, &begin.0.state);
+        let mut offsets = first.offsets.clone();
+        offsets.tool = AxisVector::zeros();
+        offsets.shift = AxisVector::zeros();
+        offsets.saved_shift = own.offsets.saved_shift;
+        offsets.fanuc.external = own.offsets.fanuc.external;
+        offsets
+            .fanuc
+            .extended
+            .clone_from(&own.offsets.fanuc.extended);
+        offsets.fanuc.wear.clone_from(&own.offsets.fanuc.wear);
+        let state = State {
+            modal: Modal {
+                motion: Some(Motion::Rapid),
+                ..first.modal
+            },
+            selected_tool: own.selected_tool,
+            tool: own.tool,
+            probe: own.probe,
+            input: own.input,
+            tools: own.tools.clone().or_else(|| first.tools.clone()),
+            offsets,
+            ..first.clone()
+        };
+        let parts = InForceParts {
+            state,
+            parameters: self.0.parameters.clone(),
+            ..begin.0.as_ref().clone()
+        };
+        Self(Arc::new(parts))
+    }
+
+    /// The same, with spindle and coolant as they were before.
+    #[must_use]
+    pub fn turning_as(&self, before: &Self) -> Self {
+        let mut parts = self.0.as_ref().clone();
+        parts.state.spindle = before.0.state.spindle;
+        parts.state.coolant = before.0.state.coolant;
         Self(Arc::new(parts))
     }
 

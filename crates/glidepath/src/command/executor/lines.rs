@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use glidepath_gcode::{InForce, Program};
+use glidepath_gcode::{InForce, Options, Program};
 use glidepath_geometry::AxisVector;
 use glidepath_planner::{LineInbox, Pipeline, ProgramSource, Refusal, SentLines};
 
@@ -28,7 +28,10 @@ impl JobExecutor<'_> {
         let (config, supervisor) = self.set_up(1.0, context.publisher, context.control)?;
         let config = of_sender(config);
         self.board.clear();
-        let options = config.program_options(start);
+        let options = Options {
+            stops_at_m1: false,
+            ..config.program_options(start)
+        };
         let source = SentLines::new(inbox.clone(), options, supervisor.channels());
         let pipeline = Pipeline::new(source, config.settings(), start).of_stream();
         let (run, in_force) = context.publish(pipeline, (&config, &supervisor), start, |s| {

@@ -5,6 +5,7 @@ mod commit_state;
 mod file;
 mod file_job;
 mod lines;
+mod reset;
 mod resumption;
 mod run_context;
 mod runner;

@@ -30,6 +30,10 @@ impl JobRunner for JobExecutor<'_> {
         Some(LineFacts::of(&program))
     }
 
+    fn reset(&mut self) {
+        self.begin_anew();
+    }
+
     fn run(
         &mut self,
         job: &Job,

@@ -55,3 +55,78 @@ impl Checking {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config;
+    use core::time::Duration;
+    use glidepath_grbl::{Act, Doing, MachineSettings, MachineView, Session};
+
+    /// What a sender is told for each of these lines, the first one at once in `$C`.
+    fn answers(lines: &[&str]) -> Vec<String> {
+        let config = config::parse("mill.toml", config::EMBEDDED).unwrap();
+        let mut checking = Checking::new(&config);
+        let mut session = Session::new(MachineSettings::default());
+        let machine = MachineView {
+            doing: Doing::Idle,
+            ..MachineView::default()
+        };
+        session.see(&machine, Duration::ZERO);
+        session.connected(Duration::ZERO);
+        session.hear(b"$C\n", Duration::ZERO);
+        session.take_output();
+        let answer = |line: &&str| {
+            session.hear(format!("{line}\n").as_bytes(), Duration::ZERO);
+            for act in session.take_acts() {
+                if let Act::Judge(line) = act {
+                    session.judged(checking.judge(&line, AxisVector::zeros()).as_ref());
+                }
+            }
+            let said = String::from_utf8(session.take_output()).unwrap();
+            said.lines().last().unwrap_or_default().to_owned()
+        };
+        lines.iter().map(answer).collect()
+    }
+
+    /// The numbers are those of grbl 1.1h (`report.h`), for what `gc_execute_line` finds in these lines.
+    #[test]
+    fn lines_are_refused_by_the_numbers_of_grbl() {
+        let expected = [
+            ("G92", "error:26"),
+            ("G10 L2 P1", "error:26"),
+            ("G10 L20 P1", "error:26"),
+            ("G10 L2 P1 R5", "error:20"),
+            ("G2 X1 F100", "error:35"),
+            ("G3 F100 X1 Y1", "error:35"),
+            ("G2 X10 Y0 I1 J0 F100", "error:33"),
+            ("G2 X100 R1 F100", "error:34"),
+            ("G43.1", "error:37"),
+            ("G1 X1 X2 F100", "error:25"),
+            ("G1 X1 F1 F2", "error:25"),
+            ("G4 P-1", "error:4"),
+            ("S-1", "error:4"),
+            ("M3 S-1", "error:4"),
+            ("F-1", "error:4"),
+            ("G1 X1 F-1", "error:4"),
+            ("T-1", "error:4"),
+            ("G4", "error:28"),
+            ("G1 X1", "error:22"),
+            ("G1 X1 F0", "error:22"),
+            ("F0", "ok"),
+            ("G53", "ok"),
+            ("G53 G2 X1 I1 F100", "error:30"),
+            ("G10 L2 P99 X1", "error:29"),
+            ("G10 X1", "error:28"),
+            ("G38.2 F100", "error:26"),
+            ("G0 G53", "ok"),
+            ("M1", "ok"),
+            ("G17 G18", "error:21"),
+            ("G999", "error:20"),
+        ];
+        for (line, number) in expected {
+            assert_eq!(answers(&["G0 X0 Y0", line])[1], number, "{line}");
+        }
+        assert_eq!(answers(&["F100", "F0", "G1 X1"])[2], "error:22");
+    }
+}

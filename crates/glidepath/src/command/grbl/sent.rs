@@ -131,6 +131,7 @@ const fn wish(wish: JobIntent) -> LinesWish {
         JobIntent::Ask => LinesWish::Ask,
         JobIntent::Close => LinesWish::Close,
         JobIntent::Cancel => LinesWish::Cancel,
+        JobIntent::Reset => LinesWish::Reset,
     }
 }
 

@@ -58,6 +58,7 @@ pub(super) fn play(
         // is no silence.
         let now_ns = Monotonic.now_ns();
         while let Some(setpoint) = servo.receive(now_ns)? {
+            plant.hear(&setpoint);
             if !take(Told::Setpoint(&setpoint))? {
                 break 'playing;
             }

@@ -155,7 +155,9 @@ impl Bench {
         }
         for ms in 0..PERIOD_NS / 1_000_000 {
             let now_ns = scheduled_ns + 300_000 + ms * 1_000_000;
-            while self.servo.receive(now_ns).unwrap().is_some() {}
+            while let Some(setpoint) = self.servo.receive(now_ns).unwrap() {
+                self.plant.hear(&setpoint);
+            }
             let demand = self.servo.demand(now_ns);
             self.plant.step(now_ns, self.servo.last(), demand.as_ref());
             if let Some(mut feedback) = self.plant.feedback() {

@@ -437,8 +437,8 @@ fn what_was_stopped_turns_again_before_anything_moves() {
 }
 
 /// Events, dwells and moves in turn, so that the machine is told to be in blocks that do not move.
-const IN_TURN: &str = "G21 G90 F600\nS8000 M3\nG4 P0.02\nG1 X10\nM8\nG1 X20 Y3\nG4 P0.02\nG2 X30 Y3 I5 J0\nM9\nG4 P0.02\n\
-                       M2\n";
+const IN_TURN: &str = "G21 G90 F600\nS8000 M3\nG4 P0.02\nG1 X10\nM8\nG1 X20 Y3\nG4 P0.02\nM5\nG2 X30 Y3 I5 J0\nM9\n\
+                       G4 P0.02\nM2\n";
 
 fn in_turn() -> Kept {
     Kept(ProgramSource::new(IN_TURN.as_bytes(), Options::default()))

@@ -10,6 +10,7 @@ use glidepath_link::{LinesReply, LinesRequest, LinesState, LongText, Text};
 
 use super::facts::{Found, LineFacts};
 use super::followed::Followed;
+use super::storing::stores;
 
 /// Text that was taken and not read, at most, bytes.
 const MOST_UNREAD: usize = 4096;
@@ -34,6 +35,15 @@ pub(crate) enum LinesEnd {
     Done,
     NotBegun,
     Failed,
+}
+
+/// Why a line ends its job.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum LastLine {
+    /// M2, M30.
+    EndsProgram,
+    /// It stores something that outlasts programs.
+    Stores,
 }
 
 /// A line that was refused.
@@ -75,8 +85,10 @@ struct Inbox {
     is_closing: bool,
     /// Nothing more is taken or read.
     is_over: bool,
-    /// The line that ends a program, which counts as read when it is executed.
-    program_end: Option<u64>,
+    /// The line given last stores something ([`stores`]): no line is given behind it.
+    is_storing: bool,
+    /// The line that ends the job, which counts as read when the job is over, and why it does.
+    last: Option<(u64, LastLine)>,
     refused: Option<Refused>,
     end: Option<(LinesEnd, String)>,
     facts: LineFacts,
@@ -118,7 +130,8 @@ impl LineInbox {
             },
             is_closing: false,
             is_over: false,
-            program_end: None,
+            is_storing: false,
+            last: None,
             refused: None,
             end: None,
             facts,
@@ -199,7 +212,7 @@ impl LineInbox {
             rests: true,
             ..Followed::default()
         };
-        if let (LinesEnd::Done, Some(line)) = (end, inbox.program_end) {
+        if let (LinesEnd::Done, Some((line, _))) = (end, inbox.last) {
             inbox.read = line;
         }
         inbox.end = Some((end, text.to_owned()));
@@ -218,8 +231,10 @@ impl LineInbox {
         }
         let state = match &inbox.end {
             None => LinesState::Open,
-            Some((LinesEnd::Done, _)) if inbox.program_end.is_some() => LinesState::ProgramEnd,
-            Some((LinesEnd::Done, _)) => LinesState::Done,
+            Some((LinesEnd::Done, _)) => match inbox.last {
+                Some((_, LastLine::EndsProgram)) => LinesState::ProgramEnd,
+                Some((_, LastLine::Stores)) | None => LinesState::Done,
+            },
             Some((LinesEnd::NotBegun, _)) => LinesState::NotBegun,
             Some((LinesEnd::Failed, _)) => LinesState::Failed,
         };
@@ -247,13 +262,30 @@ impl LineInbox {
     /// The next line with its end, if one is there and may be read.
     pub(super) fn next_line(&self, into: &mut Vec<u8>) {
         let mut inbox = self.lock();
-        if inbox.is_over || inbox.is_closing {
+        if inbox.is_over || inbox.is_closing || inbox.is_storing {
             return;
         }
         let end = inbox.unread.iter().position(|byte| *byte == b'\n');
         if let Some(end) = end {
             into.extend(inbox.unread.drain(..=end));
+            inbox.is_storing = stores(into);
         }
+    }
+
+    /// The line given last stores something, and was read. Where it is settled behind it, the job ends, so that what it
+    /// stores is kept when it is told to be read; elsewhere more lines are given. Returns whether the job ends.
+    pub(super) fn end_if_storing(&self, line: u64, is_settled: bool) -> bool {
+        let mut inbox = self.lock();
+        if !core::mem::take(&mut inbox.is_storing) || !is_settled {
+            return false;
+        }
+        (inbox.is_over, inbox.last) = (true, Some((line, LastLine::Stores)));
+        true
+    }
+
+    /// Whether the line given last stores something, and nothing is given behind it.
+    pub(super) fn is_storing(&self) -> bool {
+        self.lock().is_storing
     }
 
     /// So many lines were read.
@@ -306,7 +338,7 @@ impl LineInbox {
     /// A program ends with this line.
     pub(super) fn end_program(&self, line: u64) {
         let mut inbox = self.lock();
-        (inbox.is_over, inbox.program_end) = (true, Some(line));
+        (inbox.is_over, inbox.last) = (true, Some((line, LastLine::EndsProgram)));
     }
 
     /// The line behind those that were read is refused.
@@ -336,12 +368,14 @@ impl LineInbox {
         inbox.states.push_back((behind, state));
     }
 
-    /// The state in force while a block is executed; `None`: what was so before the job.
+    /// The state in force while a block is executed, or, where the machine rests behind all that was given out, behind
+    /// the line read last; `None`: what was so before the job.
     #[must_use]
     pub fn in_force_at(&self, block: u32) -> Option<InForce> {
         let mut inbox = self.lock();
+        let rests = inbox.followed.rests;
         while let Some((behind, _)) = inbox.states.front()
-            && *behind < block
+            && (*behind < block || rests)
         {
             inbox.state = inbox.states.pop_front().map(|(_, state)| state);
         }

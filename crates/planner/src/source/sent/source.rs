@@ -158,8 +158,15 @@ impl ItemSource for SentLines {
             Supply::Pending if self.source.is_asking() => Supply::Pending,
             Supply::Pending => {
                 self.note(behind);
-                self.inbox.has_read(self.source.lines_read());
                 let is_settled = self.program().is_settled();
+                let lines = self.source.lines_read();
+                if self.inbox.is_storing() {
+                    self.inbox.has_read(lines.saturating_sub(1));
+                    if self.inbox.end_if_storing(lines, is_settled) {
+                        return Supply::End;
+                    }
+                }
+                self.inbox.has_read(lines);
                 if self.inbox.end_if_done(is_settled) {
                     return Supply::End;
                 }

@@ -35,11 +35,17 @@ struct Desk {
 
 impl Desk {
     fn new() -> Self {
+        Self::with_system(0.0)
+    }
+
+    /// On a machine whose G55 has its zero at this X.
+    fn with_system(x: f64) -> Self {
         let inbox = LineInbox::new(LineFacts::default(), Found::default());
-        let options = Options {
+        let mut options = Options {
             connections: Connections::Simulated,
             ..Options::default()
         };
+        options.offsets.systems[1].origin[0] = x;
         let source = SentLines::new(inbox.clone(), options, RunChannels::default());
         Self { inbox, source }
     }
@@ -230,8 +236,8 @@ fn the_end_of_a_program_counts_when_all_is_executed() {
 
 #[test]
 fn what_is_in_force_and_the_zero_are_those_of_the_block_that_is_executed() {
-    let mut desk = Desk::new();
-    let text = "G10 L2 P2 X100\nG0 X1\nG55\nG0 X2\nX3\n#100=5\nX4\n";
+    let mut desk = Desk::with_system(100.0);
+    let text = "G0 X1\nG55\nG0 X2\nX3\n#100=5\nX4\n";
     desk.inbox.take(&request(1, text));
     assert_eq!(desk.items().len(), 4);
     let zero = |block: u32| {
@@ -243,7 +249,7 @@ fn what_is_in_force_and_the_zero_are_those_of_the_block_that_is_executed() {
         desk.reply().zero[0]
     };
     assert!(zero(1).abs() < 1e-9 && (zero(2) - 100.0).abs() < 1e-9);
-    let mut desk = Desk::new();
+    let mut desk = Desk::with_system(100.0);
     desk.inbox.take(&request(1, text));
     assert_eq!(desk.items().len(), 4);
     let active = |block| {
@@ -252,6 +258,40 @@ fn what_is_in_force_and_the_zero_are_those_of_the_block_that_is_executed() {
             .map(|it| it.work_offsets().active)
     };
     assert_eq!([active(0), active(1), active(2)], [None, Some(0), Some(1)]);
+}
+
+/// What was answered and is executed is in force, whatever ends the job then.
+#[test]
+fn what_is_in_force_at_rest_is_that_of_the_last_line() {
+    let mut desk = Desk::with_system(100.0);
+    desk.inbox.take(&request(1, "G0 X1\nG55\n"));
+    assert_eq!(desk.items().len(), 1);
+    let active = |desk: &Desk| desk.inbox.in_force_at(1).unwrap().work_offsets().active;
+    assert_eq!(active(&desk), 0);
+    desk.executed(1);
+    assert_eq!(active(&desk), 1);
+}
+
+/// grbl rests, stores and answers then: a reset right behind the answer takes nothing back.
+#[test]
+fn a_line_that_stores_counts_as_read_when_its_job_is_over() {
+    let mut desk = Desk::new();
+    let lines = "G0 X1\nG10 L20 P1 X0\nG0 X2\n";
+    desk.inbox.take(&request(1, lines));
+    assert_eq!(desk.items().len(), 1);
+    assert!(matches!(desk.source.next_item(), Supply::End));
+    assert_eq!((desk.reply().taken, desk.reply().read), (3, 1));
+    let stored = desk.source.in_force().work_offsets();
+    assert!((stored.systems[0].origin[0] - 1.0).abs() < 1e-12);
+    desk.inbox.end(LinesEnd::Done, "executed");
+    let reply = desk.reply();
+    assert_eq!((reply.state(), reply.read), (Ok(LinesState::Done), 2));
+    // In the middle of a structure there is no end.
+    let mut desk = Desk::new();
+    let lines = "o1 if [1]\nG10 L20 P1 X0\nG0 X2\no1 endif\n";
+    desk.inbox.take(&request(1, lines));
+    assert_eq!((desk.items().len(), desk.items().len()), (0, 1));
+    assert_eq!(desk.reply().read, 4);
 }
 
 #[test]
