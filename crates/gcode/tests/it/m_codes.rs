@@ -307,3 +307,17 @@ fn what_is_said_about_a_code_and_what_may_be_declared_agree() {
         }
     }
 }
+
+/// grbl reads over M1 (`gcode.c`: "Optional stop not supported. Ignore."), and so do its senders' lines.
+#[test]
+fn m1_stops_where_it_is_to() {
+    let of = |stops_at_m1| {
+        let options = Options {
+            stops_at_m1,
+            ..Options::default()
+        };
+        kinds_of("G0 X1\nM1\nX2\nM2\n", options)
+    };
+    assert_eq!(of(true), ["rapid", "OptionalStop", "rapid"]);
+    assert_eq!(of(false), ["rapid", "rapid"]);
+}

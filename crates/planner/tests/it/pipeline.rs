@@ -67,7 +67,8 @@ fn a_file_and_a_pipe_give_the_same_frames() {
     assert!(refusal.is_none(), "{refusal:?}");
     assert_eq!(
         (statistics.lines, statistics.segments, statistics.others),
-        (10, 6, 3)
+        (10, 6, 4),
+        "the end stops the spindle"
     );
     assert_eq!(statistics.frames, from_file.len() as u64);
 
