@@ -3,7 +3,7 @@
 
 use super::matched_sample::MatchedSample;
 use super::round::is_bound_by_feed;
-use crate::piece::Shape;
+use crate::piece::{Piece, Shape};
 use crate::settings::AuditSettings;
 use crate::violation::{ViolationKind, ViolationList};
 use glidepath_geometry::ROTARY_ABC;
@@ -60,13 +60,26 @@ impl SlowDown {
 
     /// The next sample.
     pub(crate) fn next(&mut self, place: &MatchedSample, found: &mut ViolationList) {
-        let Some(piece) = place.piece.filter(|_| self.keeps_the_feed(place)) else {
+        let is_at_feed = (place.speed_v - place.feed_v).abs() <= REACHED_R * place.feed_v;
+        #[allow(clippy::float_cmp, reason = "the feed of a piece is one number")]
+        let is_same = |run: &Run, piece: &Piece| {
+            run.piece == piece.number && run.feed_v == place.feed_v && place.ticks == 1
+        };
+        // Nearly all samples: at the feed, as those before.
+        if let (Some(run), Some(piece)) = (&self.run, &place.piece)
+            && is_at_feed
+            && run.is_reached
+            && run.slowest.is_none()
+            && !place.is_between_frames
+            && is_same(run, piece)
+        {
+            return;
+        }
+        let Some(piece) = place.piece.as_ref().filter(|_| self.keeps_the_feed(place)) else {
             self.run = None;
             return;
         };
-        #[allow(clippy::float_cmp, reason = "the feed of a piece is one number")]
-        let is_other = |run: &Run| run.piece != piece.number || run.feed_v != place.feed_v;
-        if self.run.as_ref().is_some_and(is_other) {
+        if self.run.as_ref().is_some_and(|run| !is_same(run, piece)) {
             self.run = None;
         }
         let run = self.run.get_or_insert(Run {
@@ -76,7 +89,7 @@ impl SlowDown {
             is_reached: false,
             slowest: None,
         });
-        if (place.speed_v - place.feed_v).abs() <= REACHED_R * place.feed_v {
+        if is_at_feed {
             run.at_feed += 1;
             if run.at_feed >= REACHED_IN {
                 run.is_reached = true;
@@ -118,7 +131,7 @@ impl SlowDown {
         {
             return false;
         }
-        let Some(piece) = place.piece else {
+        let Some(piece) = &place.piece else {
             return false;
         };
         // The least motion of X, Y and Z hides the speed of the rotary axes.

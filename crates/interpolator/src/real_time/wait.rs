@@ -111,7 +111,8 @@ impl Wait {
                 word: CodeWord::Q,
                 value,
             } => self.next_q = Some(value),
-            Event::MCode(code) => {
+            // Words are of the next code, whether it waits or not.
+            Event::MCode(code) | Event::PassingCode(code) => {
                 let q = self.next_q.take();
                 if code == ORIENTED {
                     self.oriented_q = q;
@@ -221,4 +222,28 @@ pub(crate) fn kind_and_value(event: Option<&EventRecord>) -> (u32, f64) {
     event.map_or((EventKind::None.code(), 0.0), |event| {
         (event.kind, event.value)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_q_is_of_its_own_code_alone() {
+        let q = |value| Event::CodeWord {
+            word: CodeWord::Q,
+            value,
+        };
+        let heard = |events: &[Event]| {
+            let mut wait = Wait::default();
+            events.iter().for_each(|event| wait.hear_word(*event));
+            wait.oriented_q
+        };
+        let oriented = Event::MCode(ORIENTED);
+        assert_eq!(heard(&[q(2.0), oriented]), Some(2.0));
+        assert_eq!(heard(&[q(2.0), oriented, oriented]), None);
+        for other in [Event::MCode(100), Event::PassingCode(101)] {
+            assert_eq!(heard(&[q(3.0), other, oriented]), None, "{other:?}");
+        }
+    }
 }
