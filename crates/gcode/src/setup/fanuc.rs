@@ -54,13 +54,13 @@ pub enum OffsetMemory {
     Haas,
 }
 
-/// In which range `ATAN[a]/[b]` is (parameter 6004#0).
+/// In which range `ATAN[a]/[b]` and `ASIN[a]` are (parameter 6004#0).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Arctangent {
-    /// From 0 to 360 degrees.
+    /// From 0 to 360 degrees; ASIN from 270 over 0 to 90.
     #[default]
     Full,
-    /// From −180 to 180 degrees.
+    /// From −180 to 180 degrees; ASIN from −90 to 90.
     Signed,
 }
 
@@ -116,7 +116,7 @@ pub struct FanucParameters {
     pub point: PointInput,
     /// The memory of tool offsets.
     pub offset_memory: OffsetMemory,
-    /// The range of `ATAN[a]/[b]`.
+    /// The range of `ATAN[a]/[b]` and `ASIN[a]`.
     pub arctangent: Arctangent,
     /// The feed of a lathe.
     pub feed_at_start: FeedAtStart,

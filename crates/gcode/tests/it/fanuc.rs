@@ -1,7 +1,8 @@
 //! Tests of FANUC's and Haas' mills: ends and ways by values computed by hand.
 
 use glidepath_gcode::{
-    FanucParameters, Machine, OffsetMemory, Options, PointInput, Program, RemarkKind, check,
+    Arctangent, FanucParameters, Machine, OffsetMemory, Options, PointInput, Program, RemarkKind,
+    check,
 };
 use glidepath_geometry::Axis;
 use glidepath_program::{Event, ItemKind};
@@ -85,12 +86,31 @@ fn operators_and_functions_are_those_of_the_control() {
         ("ATAN[1]", 45.0),
         ("ATAN[-1]/[1]", 315.0),
         ("ATAN[1,-1]", 135.0),
+        ("ROUND[ASIN[-.5]]", 330.0),
+        ("ASIN[-1]", 270.0),
+        ("ROUND[ASIN[.5]]", 30.0),
+        ("ROUND[ACOS[-.5]]", 120.0),
         ("ROUND[1.23456]", 1.0),
     ] {
         assert_eq!(last(&format!("#1={value}\nG0 X#1"))[0], expected, "{value}");
     }
     // In a word ROUND rounds to the least increment.
     assert_eq!(last("G0 X[ROUND[1.23456]]")[0], 1.235);
+}
+
+#[test]
+fn angles_are_below_zero_where_the_control_has_them_so() {
+    let mut signed = options();
+    signed.fanuc.arctangent = Arctangent::Signed;
+    for (value, expected) in [
+        ("ATAN[-1]/[1]", -45.0),
+        ("ASIN[-.5]", -30.0),
+        ("ASIN[-1]", -90.0),
+    ] {
+        let text = format!("#1=ROUND[{value}]\nG0 X#1");
+        let all = ends_with(&text, signed.clone());
+        assert_eq!(all.last().expect("a move")[0], expected, "{value}");
+    }
 }
 
 #[test]

@@ -8,7 +8,7 @@ use glidepath_gcode::{
     Tool, ToolTable, check,
 };
 use glidepath_geometry::Axis;
-use glidepath_program::{Event, ItemKind, Limits};
+use glidepath_program::{Event, ItemKind, Limits, Rate};
 
 use crate::support::listed;
 
@@ -158,6 +158,82 @@ fn a_last_cut_may_be_left_along_the_profile() {
         "G98\nG0 X62 Z2\nG71 U2. R1.\nG71 P10 Q20 U0.6 I1. F300\nN10 G0 X20\nN20 G1 Z-20",
         &["4:18 unused-word"],
     );
+}
+
+/// Ends of the moves to which the tool goes at the feed of the cycle, or at rapid.
+fn paced(text: &str) -> Vec<(bool, [f64; 2])> {
+    Program::new(text.as_bytes(), options())
+        .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+        .filter_map(|item| match item.kind {
+            ItemKind::Move { segment, rate, .. } => {
+                let end = segment.end();
+                let end = [0, 2].map(|axis| (end[axis] * 1e6).round() / 1e6 + 0.0);
+                Some((rate == Rate::Rapid, end))
+            }
+            _ => None,
+        })
+        .collect()
+}
+
+#[test]
+fn the_way_down_is_as_the_first_block_of_the_profile_says() {
+    // Levels of 5 from a radius of 26 down to 15; back at 45 degrees and above the pass at rapid.
+    let turning = |first: &str| {
+        paced(&format!(
+            "G98\nG0 X52. Z2.\nG71 U5. R1.\nG71 P10 Q20 F300.\nN10 {first}\nN20 G1 Z-15. F100."
+        ))
+    };
+    for (first, is_rapid) in [
+        ("G0 X30.", true),
+        ("G1 X30.", false),
+        ("G1 X30. F50.", false),
+    ] {
+        let all = turning(first);
+        for level in [21.0, 16.0, 15.0] {
+            assert!(
+                all.contains(&(is_rapid, [level, 2.0])),
+                "{first} {level} {all:?}"
+            );
+            assert!(
+                !all.contains(&(!is_rapid, [level, 2.0])),
+                "{first} {level} {all:?}"
+            );
+        }
+        for aside in [[22.0, -14.0], [22.0, 1.0]] {
+            assert!(all.contains(&(true, aside)), "{first} {aside:?} {all:?}");
+        }
+        assert_eq!(all.last(), Some(&(true, [26.0, 2.0])));
+    }
+    let others = [
+        // Facing; a bore; type II, whose first block has X and Z.
+        (
+            "G0 X52. Z2.\nG72 W5. R1.\nG72 P10 Q20 F300.\nN10 G1 Z-10.\nN20 X30.",
+            [[26.0, -3.0], [26.0, -8.0], [26.0, -10.0]],
+        ),
+        (
+            "G0 X20. Z2.\nG71 U5. R1.\nG71 P10 Q20 F300.\nN10 G1 X44.\nN20 Z-15.",
+            [[15.0, 2.0], [20.0, 2.0], [22.0, 2.0]],
+        ),
+        (
+            "G0 X52. Z2.\nG71 U5. R1.\nG71 P10 Q20 F300.\nN10 G1 X30. Z2.\nN20 Z-15.",
+            [[21.0, 2.0], [16.0, 2.0], [15.0, 2.0]],
+        ),
+    ];
+    for (text, downs) in others {
+        for (code, is_rapid) in [("N10 G1", false), ("N10 G0", true)] {
+            let text = text.replace("N10 G1", code).replace("N20 ", "N20 G1 ");
+            let all = paced(&format!("G98\n{text}"));
+            for down in downs {
+                assert!(all.contains(&(is_rapid, down)), "{text} {down:?} {all:?}");
+                assert!(!all.contains(&(!is_rapid, down)), "{text} {down:?} {all:?}");
+            }
+        }
+    }
+    // The last cut goes to the profile as the passes do.
+    let cut = "G98\nG0 X52. Z2.\nG71 P10 Q20 I1. K0 D5. F300.\nN10 G1 X30.\nN20 Z-15.";
+    assert!(paced(cut).contains(&(false, [15.0, 2.0])));
+    let cut = cut.replace("N10 G1", "N10 G0").replace("N20 ", "N20 G1 ");
+    assert!(paced(&cut).contains(&(true, [15.0, 2.0])));
 }
 
 #[test]

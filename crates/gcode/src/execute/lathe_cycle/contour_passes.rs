@@ -4,6 +4,7 @@ use crate::execute::compensation::element::{Element, Point};
 use crate::execute::lathe_cycle::offset::offset;
 use crate::execute::lathe_cycle::pass_axes::{PassAxes, pieces};
 use crate::execute::lathe_cycle::passes::{PassMove, Roughing, rough};
+use crate::execute::motion::speed::Pace;
 use crate::syntax::modes::Pockets;
 
 /// How deep the passes are, and what they leave, mm.
@@ -31,6 +32,7 @@ pub(crate) fn rough_contour(
         increment_mm: words.increment_mm,
         retract_mm: words.retract_mm,
         first_level: 1.0,
+        infeed: Pace::Rapid,
     };
     let moves = rough(&at_distance, axes.inside(start), roughing).ok()?;
     let outside = |pass_move: PassMove| match pass_move {

@@ -61,6 +61,7 @@ impl Interpreter {
             increment_mm: words.increment_mm,
             retract_mm: words.retract_mm,
             first_level: words.first_level,
+            infeed: cycle.infeed(),
         };
         let moves = rough(&at_distance, axes.inside(start), roughing)
             .map_err(|why| no_passes(block, why))?;
@@ -102,7 +103,7 @@ impl Interpreter {
                 return Err(no_passes(block, NoPasses::TooMany));
             }
             self.rapid_without_compensation(block, target, out)?;
-            for pass_move in finish(&along, axes.inside(start)) {
+            for pass_move in finish(&along, axes.inside(start), cycle.infeed()) {
                 self.pass_move(block, &axes, pass_move, out)?;
             }
             if pass > 0 {

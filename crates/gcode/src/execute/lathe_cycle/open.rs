@@ -2,9 +2,11 @@
 
 use crate::execute::lathe_cycle::profile::LatheProfile;
 use crate::execute::line_origin::SourceLine;
+use crate::execute::motion::speed::Pace;
 use crate::execute::state::fanuc_modal::Repeating;
 use crate::execute::state::program_state::State;
 use crate::syntax::block::Block;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::LatheCycle;
 
 /// A cycle whose profile is being read.
@@ -41,6 +43,18 @@ impl OpenLatheCycle {
             words,
             profile,
             state,
+        }
+    }
+}
+
+impl OpenLatheCycle {
+    /// At which speed the tool goes to the first point of the profile: on a FANUC as the profile's first
+    /// block says, in LinuxCNC's language at rapid.
+    pub(super) fn infeed(&self) -> Pace {
+        if self.block.dialect == Dialect::Fanuc && self.profile.begins_at_feed {
+            Pace::Feed
+        } else {
+            Pace::Rapid
         }
     }
 }

@@ -12,12 +12,13 @@
 //! ```
 //!
 //! The first way down is the straight one from the start to the first point of the contour, at
-//! rapid speed. Below that the tool follows the contour. Where the contour falls, a pocket begins:
+//! rapid speed, or at the feedrate where the profile of a FANUC begins with G1. Below that the tool follows the contour. Where the contour falls, a pocket begins:
 //! it is the way down, at the feedrate, and the pocket's levels are passed on it, before the tool
 //! goes on along its bottom.
 
 use crate::execute::compensation::element::Point;
 use crate::execute::lathe_cycle::pass_axes::{ContourPiece, PieceShape, ROUNDING_MM};
+use crate::execute::motion::speed::Pace;
 use crate::syntax::modes::Pockets;
 
 /// Levels and ways that differ by no more are the same, mm.
@@ -55,6 +56,8 @@ pub(crate) struct Roughing {
     pub(super) retract_mm: f64,
     /// How many increments below the start the first pass is.
     pub(super) first_level: f64,
+    /// At which speed the tool goes down the first way.
+    pub(super) infeed: Pace,
 }
 
 /// The moves of a roughing cycle along a contour, for a tool at `start`.
@@ -96,9 +99,9 @@ pub(crate) fn rough(
     Ok(passes.moves)
 }
 
-/// The moves of one finishing pass along a contour, for a tool at `start`. A tool above the contour
-/// first goes beside it.
-pub(crate) fn finish(contour: &[ContourPiece], start: Point) -> Vec<PassMove> {
+/// The moves of one finishing pass along a contour, for a tool at `start`, that comes to its first point
+/// as `infeed` says. A tool above the contour first goes beside it.
+pub(crate) fn finish(contour: &[ContourPiece], start: Point, infeed: Pace) -> Vec<PassMove> {
     let begin = contour.first().map(|piece| piece.start);
     let aside = begin
         .filter(|begin| start[0] < begin[0] - SAME_MM)
@@ -106,7 +109,7 @@ pub(crate) fn finish(contour: &[ContourPiece], start: Point) -> Vec<PassMove> {
     let along = contour.iter().map(|piece| along(piece, piece.end));
     aside
         .into_iter()
-        .chain(begin.map(PassMove::Rapid))
+        .chain(begin.map(|begin| down(infeed, begin)))
         .chain(along)
         .collect()
 }
@@ -136,6 +139,14 @@ pub(crate) fn lift(contour: &[ContourPiece], start: Point) -> Vec<PassMove> {
         PassMove::Feed([end[0], level]),
         PassMove::Rapid([beside, level]),
     ]
+}
+
+/// The move down the first way.
+const fn down(infeed: Pace, end: Point) -> PassMove {
+    match infeed {
+        Pace::Rapid => PassMove::Rapid(end),
+        Pace::Feed => PassMove::Feed(end),
+    }
 }
 
 /// A piece in parts that rise or fall all along.
@@ -201,13 +212,13 @@ impl Passes<'_> {
         Ok(())
     }
 
-    /// Along a piece to its end; at rapid speed before the contour begins.
+    /// Along a piece to its end; down the first way before the contour begins.
     fn go_along(&mut self, index: usize) {
         let Some(piece) = self.pieces.get(index) else {
             return;
         };
         self.moves.push(if index == 0 {
-            PassMove::Rapid(piece.end)
+            down(self.words.infeed, piece.end)
         } else {
             along(piece, piece.end)
         });
@@ -247,12 +258,11 @@ impl Passes<'_> {
     /// To a place on the way down, from there to the next wall, and back.
     fn pass(&mut self, index: usize, piece: &ContourPiece, at: Point) {
         let [a, level] = at;
-        let down = if index == 0 {
-            PassMove::Rapid(at)
+        self.moves.push(if index == 0 {
+            down(self.words.infeed, at)
         } else {
             along(piece, at)
-        };
-        self.moves.push(down);
+        });
         let wall = self.wall(index + 1, level);
         let length = a - wall;
         if length <= SAME_MM {
@@ -264,7 +274,7 @@ impl Passes<'_> {
             PassMove::Rapid([wall + retract, level + retract]),
             PassMove::Rapid([a - retract, level + retract]),
             if index == 0 {
-                PassMove::Rapid(at)
+                down(self.words.infeed, at)
             } else {
                 PassMove::Feed(at)
             },

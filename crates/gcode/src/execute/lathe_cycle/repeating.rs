@@ -32,11 +32,6 @@ impl Interpreter {
             return Ok(());
         };
         let start = self.lathe_point();
-        let approach = if profile.begins_at_feed {
-            Pace::Feed
-        } else {
-            Pace::Rapid
-        };
         for pass in (0..passes).rev() {
             let share = f64::from(pass) / f64::from((passes - 1).max(1));
             let shift = relief_mm.map(|way| way * share);
@@ -46,7 +41,7 @@ impl Interpreter {
             self.straight(block, self.lathe_target(begin), Pace::Rapid, out)?;
             let first = profile.elements.first().map(|element| element.start);
             if let Some(first) = first {
-                self.straight(block, self.lathe_target(by(first)), approach, out)?;
+                self.straight(block, self.lathe_target(by(first)), cycle.infeed(), out)?;
             }
             for element in &profile.elements {
                 self.repeat_element(block, element, by, out)?;

@@ -6,6 +6,7 @@ use crate::execute::compensation::element::{Element, Point};
 use crate::execute::lathe_cycle::offset::offset;
 use crate::execute::lathe_cycle::pass_axes::{ContourPiece, PassAxes, pieces};
 use crate::execute::lathe_cycle::passes::{PassMove, Roughing, finish, lift, rough};
+use crate::execute::motion::speed::Pace;
 use crate::syntax::modes::Pockets;
 
 /// Distances are compared to this: samples of a profile are at most twice as far apart.
@@ -146,6 +147,7 @@ fn increments() -> impl Strategy<Value = Roughing> {
         increment_mm,
         retract_mm,
         first_level: 0.0,
+        infeed: Pace::Rapid,
     })
 }
 
@@ -200,7 +202,7 @@ proptest! {
         let Some(contour) = offset(&pieces, distance) else { return Ok(()) };
         let points = samples(&profile);
         let begin = contour[0].start;
-        let along = finish(&contour, begin);
+        let along = finish(&contour, begin, Pace::Rapid);
         for point in trace(&along[1..], begin) {
             let clear = clearance(point, &points);
             prop_assert!(clear > distance - SAMPLE_MM, "{clear} at {point:?}");
@@ -226,7 +228,7 @@ proptest! {
         let top = profile.iter().flat_map(|e| [e.start[1], e.end[1]]).fold(0.0, f64::max);
         // From above hills the way beside the contour is not free, whatever the tool does.
         prop_assume!(start[0] >= begin[0] || start[1] > top + 12.0);
-        let mut moves = finish(&contour, start);
+        let mut moves = finish(&contour, start, Pace::Rapid);
         moves.extend(lift(&contour, start));
         moves.push(PassMove::Rapid(start));
         let points = samples(&profile);
@@ -301,7 +303,7 @@ fn the_finishing_path_is_the_profile_shifted() {
     ];
     let (_, pieces) = in_frame(&profile, [2.0, 12.0]);
     let start = [2.0, 12.0];
-    let plain = finish(&offset(&pieces, 0.0).expect("itself"), start);
+    let plain = finish(&offset(&pieces, 0.0).expect("itself"), start, Pace::Rapid);
     assert_eq!(
         plain,
         [
@@ -311,7 +313,7 @@ fn the_finishing_path_is_the_profile_shifted() {
             PassMove::Feed([-20.0, 8.0]),
         ]
     );
-    let shifted = finish(&offset(&pieces, 0.5).expect("room"), start);
+    let shifted = finish(&offset(&pieces, 0.5).expect("room"), start, Pace::Rapid);
     assert_eq!(
         shifted,
         [

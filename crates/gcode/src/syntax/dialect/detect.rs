@@ -2,6 +2,7 @@
 
 use crate::setup::machine::Machine;
 use crate::syntax::dialect::lathe_marks::{LatheMark, lathe_mark};
+use crate::syntax::dialect::mill_marks::{MillMark, MillModes};
 use crate::syntax::dialect::question::{DialectQuestion, Doubt};
 use crate::syntax::dialect::{Dialect, fanuc_marks, marlin, siemens};
 
@@ -49,6 +50,7 @@ impl Dialect {
         let is_lathe = machine.is_lathe();
         let (mut number, mut has_program_number) = (0_u32, false);
         let mut question: Option<DialectQuestion> = None;
+        let (mut mill, mut is_linuxcnc) = (MillModes::default(), false);
         let ends = beginning.windows(2).filter(|pair| pair == b"\r\n").count();
         for line in beginning.split(|byte| matches!(byte, b'\n' | b'\r')) {
             // Two line ends in a row count once too often with CR LF; the number is for a message.
@@ -78,10 +80,13 @@ impl Dialect {
             if of_lathe == Some(LatheMark::LinuxCnc) {
                 return Detection::of(Self::LinuxCnc, None);
             }
+            let of_mill = if is_lathe { None } else { mill.mark(&bare) };
+            is_linuxcnc |= of_mill == Some(MillMark::LinuxCnc);
             let is_number = fanuc_marks::is_program_number(&bare);
             has_program_number |= is_number;
-            let doubt = match of_lathe {
-                Some(LatheMark::Doubt(doubt)) => Some(doubt),
+            let doubt = match (of_lathe, of_mill) {
+                (Some(LatheMark::Doubt(doubt)), _) => Some(doubt),
+                (_, Some(MillMark::Doubt(doubt))) => has_program_number.then_some(doubt),
                 _ => (is_lathe && is_number).then_some(Doubt::Number),
             };
             if let Some(doubt) = doubt.filter(|_| question.is_none()) {
@@ -93,7 +98,7 @@ impl Dialect {
             }
         }
         Detection {
-            question,
+            question: question.filter(|_| !is_linuxcnc),
             ..Detection::of(Self::LinuxCnc, None)
         }
     }
@@ -193,9 +198,47 @@ mod tests {
         let lathe = Machine::new(&[Axis::X, Axis::Z]);
         assert!(Detection::of_stream(&lathe).question.is_some());
         assert_eq!(Detection::of_stream(&Machine::unlimited()).question, None);
-        // A mill's programs are what they were.
+        // Of a mill's programs these mean the same to both.
         let mill = Machine::new(&[Axis::X, Axis::Y, Axis::Z]);
         let found = Dialect::detect(b"%\nO1\nG99\nG90 X4 Z5 F200\n", &mill);
         assert_eq!((found.dialect, found.question), (Dialect::LinuxCnc, None));
+    }
+
+    /// What is asked of a mill's program.
+    fn asked_of_mill(text: &str) -> Option<(Doubt, u32)> {
+        let found = Dialect::detect(text.as_bytes(), &Machine::unlimited());
+        found.question.map(|asked| (asked.doubt, asked.line))
+    }
+
+    #[test]
+    fn programs_of_mills_with_a_number_are_asked_for_where_it_matters() {
+        for (text, asked) in [
+            (
+                "%\nO0013\nG81 Z-5. R2. X0\nG91 X5. L3\nG80\nM30\n%\n",
+                (Doubt::HolesInG91, 4),
+            ),
+            (
+                "%\r\nO0013 (PART)\r\nG91 G10 L2 P1 X5.\r\n",
+                (Doubt::OffsetInG91, 3),
+            ),
+            ("O13\nG91\nG92 X5.\n", (Doubt::OffsetInG91, 3)),
+            ("%\nO13\nG4 P50\n", (Doubt::Dwell, 3)),
+        ] {
+            assert_eq!(asked_of_mill(text), Some(asked), "{text}");
+        }
+        for text in [
+            // No number; what decides for LinuxCNC, before or behind; what both read alike.
+            "%\nG91 G92 X5.\nG4 P50\n",
+            "%\nO100 sub\nG4 P50\nO100 endsub\nM2\n%\n",
+            "O13\nG4 P50\nG64 P0.01\n",
+            "O13\n#<wait>=5\nG4 P50\n",
+            "O13\nG4 P0.5\nG81 X0 Z-5 R2\nG80\nG91 G28 Z0\n",
+        ] {
+            assert_eq!(asked_of_mill(text), None, "{text}");
+        }
+        // What tells a FANUC needs no question.
+        let told = "O13\nG91 G92 X5.\nG43 H1 Z5.\n";
+        let found = Dialect::detect(told.as_bytes(), &Machine::unlimited());
+        assert_eq!((found.dialect, found.question), (Dialect::Fanuc, None));
     }
 }

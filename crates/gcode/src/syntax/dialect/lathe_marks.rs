@@ -63,7 +63,7 @@ pub(super) fn lathe_mark(bare: &[u8], machine: &Machine) -> Option<LatheMark> {
 }
 
 /// `O100 SUB`, `O<NAME> CALL`.
-fn is_o_word(text: &[u8]) -> bool {
+pub(super) fn is_o_word(text: &[u8]) -> bool {
     let Some(tail) = text.strip_prefix(b"O") else {
         return false;
     };

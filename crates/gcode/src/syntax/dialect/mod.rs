@@ -10,6 +10,7 @@ pub(crate) mod klipper;
 mod lathe_marks;
 pub(crate) mod line_body;
 pub(crate) mod marlin;
+mod mill_marks;
 pub(crate) mod other;
 pub(crate) mod question;
 pub(crate) mod siemens;

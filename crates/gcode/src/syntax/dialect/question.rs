@@ -15,6 +15,12 @@ pub(super) enum Doubt {
     Cycle,
     /// G98 or G99.
     FeedMode,
+    /// Holes in G91, in a mill's program.
+    HolesInG91,
+    /// G10 L2, L20 or G92 in G91, in a mill's program.
+    OffsetInG91,
+    /// P of a dwell without a decimal point, in a mill's program.
+    Dwell,
     /// A program that is executed as it comes.
     Stream,
 }
@@ -44,6 +50,18 @@ impl DialectQuestion {
             Doubt::FeedMode => (
                 "this line says what F counts on one control, and where drilling ends on another",
                 "on FANUC's lathes G98 and G99 are the feed per minute and per revolution, and X counts diameters; in LinuxCNC's language they are no feed, and X counts radii",
+            ),
+            Doubt::HolesInG91 => (
+                "holes in G91, in a program with a number, and nothing says whose it is",
+                "the levels of R and Z stay where they are on FANUC's and Haas' controls; in LinuxCNC's language each hole in G91 counts them anew from where the tool is",
+            ),
+            Doubt::OffsetInG91 => (
+                "an offset in G91, in a program with a number, and nothing says whose it is",
+                "G10 and G92 add their words in G91 on FANUC's and Haas' controls, and set them in LinuxCNC's language",
+            ),
+            Doubt::Dwell => (
+                "a dwell without a decimal point, in a program with a number, and nothing says whose it is",
+                "P without a point counts milliseconds on FANUC's and Haas' controls, and seconds in LinuxCNC's language",
             ),
             Doubt::Stream => (
                 "a lathe's program that cannot be looked at before it is executed",

@@ -224,8 +224,9 @@ impl Reader<'_, '_, '_> {
         }
         let span = SourceSpan::new(start, self.cursor.at());
         let value = evaluate(function, x, second, self.rounds_to, span)?;
-        let is_full = function == Function::Atan
-            && second.is_some()
+        // ATAN from 0 to 360, ASIN from 270 to 90.
+        let is_full = (function == Function::Atan && second.is_some()
+            || function == Function::Asin)
             && self.scope.has_full_arctangent()
             && value < 0.0;
         Ok(if is_full { value + 360.0 } else { value })

@@ -44,7 +44,7 @@ pub(crate) trait Scope {
     fn least_increment(&self) -> f64 {
         0.001
     }
-    /// True where `ATAN[a]/[b]` is from 0 to 360 degrees.
+    /// True where `ATAN[a]/[b]` is from 0 to 360 degrees, and `ASIN` from 270 to 90.
     fn has_full_arctangent(&self) -> bool {
         false
     }

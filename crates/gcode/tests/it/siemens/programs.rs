@@ -77,6 +77,16 @@ fn holes_are_drilled_along_patterns() {
         holes("HOLES1(10,0,90,5,20,3)"),
         [[10.0, 5.0], [10.0, 25.0], [10.0, 45.0]]
     );
+    // A row begins at its end that is nearer to the tool, and with its first hole where both are as near.
+    let row = [[0.0, 0.0], [20.0, 0.0], [40.0, 0.0]];
+    let back = [row[2], row[1], row[0]];
+    for (place, expected) in [("X35 Y3", back), ("X5", row), ("X20 Y9", row)] {
+        let pattern = format!("MCALL\nG0 {place}\nMCALL CYCLE81(5,0,2,-4)\nHOLES1(0,0,0,0,20,3)");
+        assert_eq!(holes(&pattern), expected, "{place}");
+    }
+    // In the frame in force: the tool is at X-5 there.
+    let shifted = "MCALL\nG0 X35\nTRANS X40\nMCALL CYCLE81(5,0,2,-4)\nHOLES1(0,0,0,0,20,3)";
+    assert_eq!(holes(shifted), [[40.0, 0.0], [60.0, 0.0], [80.0, 0.0]]);
     assert_eq!(
         holes("HOLES2(0,0,20,0,0,4)"),
         [[20.0, 0.0], [0.0, 20.0], [-20.0, 0.0], [0.0, -20.0]]

@@ -75,8 +75,8 @@ pub(super) const PROGRAM: &[Key] = &[
             of: &["0-360", "signed"],
         },
         LeftOut::Value("\"0-360\""),
-        "the range of ATAN[a]/[b] on a FANUC control (parameter 6004#0): 0 to 360 degrees, or \
-         -180 to 180",
+        "the range of ATAN[a]/[b] and ASIN[a] on a FANUC control (parameter 6004#0): 0 to 360 degrees, \
+         and 270 to 90; or -180 to 180, and -90 to 90",
     ),
     key(
         "program.bore_shift",

@@ -2,7 +2,7 @@
 //!
 //! | | |
 //! |---|---|
-//! | `HOLES1(SPCA, SPCO, STA1, FDIS, DBH, NUM)` | a row from SPCA, SPCO at the angle STA1: FDIS to the first hole, DBH from hole to hole |
+//! | `HOLES1(SPCA, SPCO, STA1, FDIS, DBH, NUM)` | a row from SPCA, SPCO at the angle STA1: FDIS to the first hole, DBH from hole to hole; it begins at the end that is nearer to the tool |
 //! | `HOLES2(CPA, CPO, RAD, STA1, INDA, NUM)` | a circle about CPA, CPO; INDA 0: all round |
 //! | `CYCLE801(SPCA, SPCO, STA, DIS1, DIS2, NUM1, NUM2)` | a grid: NUM1 holes DIS1 apart along the angle STA, NUM2 rows DIS2 apart |
 //! | `CYCLE802(XA, YA, X0, Y0, … X8, Y8, VARI, UMODE, DMODE)` | up to 9 positions ([`single_positions`](super::single_positions)) |
@@ -17,9 +17,13 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::single_positions::single_places;
 use crate::execute::dialect::siemens::steps::Step;
 use crate::execute::program::Program;
+use crate::execute::scope::coordinate;
 
 /// Most holes of a pattern.
 const MOST_HOLES: f64 = 10_000.0;
+
+/// Distances that differ by no more are the same, in the units of the program.
+const SAME_PLACE: f64 = 1e-6;
 
 /// Names of patterns, and how many arguments each has.
 const PATTERNS: [(&[u8], usize); 3] = [(b"HOLES1", 6), (b"HOLES2", 6), (b"CYCLE801", 7)];
@@ -91,7 +95,13 @@ impl<R: BufRead> Program<R> {
                 "write another number",
             );
         }
-        self.siemens_visit(places(&name, &values))
+        let mut places = places(&name, &values);
+        if name == b"HOLES1" {
+            let (first, second) = self.interpreter.state.modal.plane.axes();
+            let here = [first, second].map(|axis| coordinate(&self.interpreter, axis.index()));
+            begin_nearer(&mut places, here);
+        }
+        self.siemens_visit(places)
     }
 
     /// The positions come next.
@@ -99,6 +109,16 @@ impl<R: BufRead> Program<R> {
         let positions = places.into_iter().map(Step::Position);
         self.siemens.steps.extend(positions);
         self.siemens_make_typed()
+    }
+}
+
+/// A row begins at its end that is nearer to the tool, and at its first hole where both are as near.
+fn begin_nearer(row: &mut [[f64; 2]], here: [f64; 2]) {
+    let far = |place: &[f64; 2]| (place[0] - here[0]).hypot(place[1] - here[1]);
+    if let (Some(first), Some(last)) = (row.first(), row.last())
+        && far(last) < far(first) - SAME_PLACE
+    {
+        row.reverse();
     }
 }
 
