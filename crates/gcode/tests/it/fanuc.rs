@@ -218,6 +218,16 @@ fn offsets_are_set_as_the_control_sets_them() {
         last("G10 L20 P1 X30 Y20\nG54.1 P1 G0 X1 Y1"),
         [31.0, 21.0, 0.0]
     );
+    // P is the number of the offset in a cycle, too, and no dwell; that of the cycle stays.
+    let drilled = "G10 L20 P1 X30\nG0 Z9\nG99 G82 X1 Y0 Z-5 R2 P100 F100\nG54.1 P1 X2\nG54 P1 X3";
+    let dwells: Vec<f64> = Program::new(drilled.as_bytes(), options())
+        .filter_map(|item| match item.expect("a sound program").kind {
+            ItemKind::Dwell(seconds) => Some(seconds),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(dwells, [0.1, 0.1, 0.1]);
+    assert_eq!(last(drilled), [33.0, 0.0, 2.0]);
     assert_eq!(
         last("G10 L10 P1 R20.\nG10 L11 P1 R0.5\nG0 G43 H1 Z0")[2],
         20.5
