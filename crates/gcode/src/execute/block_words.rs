@@ -88,15 +88,24 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 13] {
         taken_by_modes_of_dialects(block),
         taken_by_systems(block),
         if motion.is_some() || axes_non_modal {
-            match block.dialect {
-                Dialect::Marlin => AXIS_WORDS.and(Letters::of(b"E")),
-                Dialect::Fanuc if block.has_increments() => AXIS_WORDS.and(Letters::of(b"H")),
-                _ => AXIS_WORDS,
-            }
+            places(block, motion)
         } else {
             none
         },
     ]
+}
+
+/// The words of places that a block takes.
+fn places(block: &Block, motion: Option<Motion>) -> Letters {
+    match (block.dialect, motion) {
+        (Dialect::Marlin, _) => AXIS_WORDS.and(Letters::of(b"E")),
+        // These go along X and Z alone.
+        (Dialect::Fanuc, Some(Motion::Turning(_) | Motion::Groove(_) | Motion::ThreadCycle)) => {
+            Letters::of(b"XZUW")
+        }
+        (Dialect::Fanuc, _) if block.has_increments() => AXIS_WORDS.and(Letters::of(b"H")),
+        _ => AXIS_WORDS,
+    }
 }
 
 /// True where P of a block with G54 is the number of a work offset.
@@ -114,17 +123,21 @@ pub(crate) fn takes_number(block: &Block) -> bool {
     block.get(b'P').is_some() && block.codes.non_modal.is_none() && takes_none
 }
 
-/// P of G54.1, and of G54 where it is one of those.
-fn taken_by_systems(block: &Block) -> Letters {
+/// True where P of a block is the number of a work offset: with G54.1, and with G54 where it is one of those.
+pub(super) fn has_number_of_system(block: &Block) -> bool {
     let codes = &block.codes;
-    let takes = match (codes.extended_system, codes.system) {
+    match (codes.extended_system, codes.system) {
         (Some(coded), _) => coded.code.is_none(),
         (None, Some(system)) => {
             system.code == 0 && block.dialect == Dialect::Fanuc && takes_number(block)
         }
         (None, None) => false,
-    };
-    Letters::of(if takes { b"P" } else { b"" })
+    }
+}
+
+/// P, where it is the number of a work offset.
+fn taken_by_systems(block: &Block) -> Letters {
+    Letters::of(if has_number_of_system(block) { b"P" } else { b"" })
 }
 
 /// The words of FANUC's frames, of codes that are read over, and of printers' places.
@@ -166,7 +179,11 @@ fn taken_by_motion(block: &Block, motion: Option<Motion>) -> Letters {
             Dialect::Fanuc => Letters::of(b"IJKR"),
             _ => Letters::of(b"IJKRP"),
         },
-        Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQKIJ"),
+        Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => {
+            // Beside G54.1 P is its number.
+            let is_number = has_number_of_system(block);
+            Letters::of(if is_number { b"RLQKIJ" } else { b"RLPQKIJ" })
+        }
         Some(Motion::Turning(Turning::Face)) => Letters::of(b"RK"),
         Some(Motion::Turning(Turning::Thread)) => Letters::of(b"RIQ"),
         Some(Motion::Turning(_)) => Letters::of(b"RI"),

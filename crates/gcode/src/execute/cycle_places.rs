@@ -17,10 +17,14 @@ const HERE: f64 = 1e-6;
 
 impl Interpreter {
     /// True for an axis that turns on the way to a hole: of FANUC's mills, where the tip of the tool does
-    /// not follow it.
+    /// not follow it, and C of its lathes.
     pub(super) fn turns_to_hole(&self, block: &Block, axis: Axis) -> bool {
-        let is_mill = block.dialect == Dialect::Fanuc && !block.is_lathe;
-        is_mill && self.options.five_axis.is_none() && matches!(axis, Axis::A | Axis::B | Axis::C)
+        let turns = match axis {
+            Axis::A | Axis::B => !block.is_lathe,
+            Axis::C => true,
+            _ => false,
+        };
+        turns && block.dialect == Dialect::Fanuc && self.options.five_axis.is_none()
     }
 
     /// The places of a block's holes, program coordinates.

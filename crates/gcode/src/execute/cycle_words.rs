@@ -3,6 +3,7 @@
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::execute::auxiliary::order::fanuc_dwell;
+use crate::execute::block_words::has_number_of_system;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::sticky_words::StickyWords;
 use crate::execute::tapping_cycle::tap_turns;
@@ -85,7 +86,7 @@ impl Interpreter {
         sticky.out_after = self.haas_way_out(block, cycle, last)?;
         if block.dialect == Dialect::Fanuc {
             // In every cycle.
-            let word = fanuc_dwell(block);
+            let word = fanuc_dwell(block).filter(|_| !has_number_of_system(block));
             sticky.dwell_s = word.or(last_dwell).unwrap_or(0.0);
         }
         if sticky.dwell_s < 0.0 {

@@ -49,8 +49,8 @@ pub enum OffsetMemory {
     A,
     /// Memory C: `#2001` and on are the wear, `#2201` and on the geometry.
     C,
-    /// Haas, and memory C with the bit V15: `#2001` and on are the length, `#2201` its wear,
-    /// `#2401` the radius or diameter, `#2601` its wear.
+    /// Haas, and memory C with the bit V15: `#2001` and on are the length, `#2201` its wear.
+    /// `#2401` and on, the radius or diameter by setting 40 and its wear, are refused.
     Haas,
 }
 

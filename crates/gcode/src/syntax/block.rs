@@ -150,7 +150,10 @@ impl Block {
     /// True if the block has an axis word or a polar one.
     pub(crate) const fn has_axes(&self) -> bool {
         let extruder = matches!(self.dialect, Dialect::Marlin) && self.get(b'E').is_some();
+        // The increment of C.
+        let turns = self.has_increments() && self.get(b'H').is_some();
         extruder
+            || turns
             || self.has_any(AXIS_WORDS)
             || self.polar[0].is_some()
             || self.polar[1].is_some()

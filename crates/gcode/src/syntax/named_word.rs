@@ -184,7 +184,7 @@ impl NamedWords {
             return Ok(());
         };
         if slot.is_some() {
-            return Err(duplicate(char::from(word.letter()), span));
+            return Err(duplicate(word.name().trim_start_matches("the "), span));
         }
         *slot = Some(NamedValue { word, value, span });
         self.are_places |= word.is_place();

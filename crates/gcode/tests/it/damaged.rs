@@ -39,7 +39,6 @@ const FINDINGS: [(&str, &[Diagnostic]); 30] = [
         "feed-bad.nc",
         &[
             (2, "missing-feed", "G1", 1),
-            (3, "bad-feed", "F0", 1),
             (4, "missing-feed", "G1", 1),
             (5, "bad-feed", "F-100", 1),
             (6, "missing-feed", "G1", 1),

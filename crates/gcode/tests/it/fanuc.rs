@@ -206,6 +206,32 @@ fn system_variables_are_read_and_written() {
 }
 
 #[test]
+fn a_haas_says_by_a_setting_whether_d_is_a_diameter() {
+    let of = |offset_memory| {
+        let mut options = options();
+        options.fanuc.offset_memory = offset_memory;
+        options
+    };
+    for (text, expected) in [
+        ("G10 L12 P1 R4.", "1:5 not-supported"),
+        ("G10 L13 P1 R.1", "1:5 not-supported"),
+        ("G0 X#2401", "1:5 parameter"),
+        ("#2601=.1", "1:1 parameter"),
+    ] {
+        let report = check(text.as_bytes(), of(OffsetMemory::Haas));
+        assert_eq!(listed(&report), [expected], "{text}");
+        assert!(
+            report.diagnostics[0].reason.contains("setting 40"),
+            "{text}"
+        );
+    }
+    let sets = "G10 L12 P1 R4.\nG0 X#13001";
+    assert_eq!(ends_with(sets, of(OffsetMemory::C)), [[4.0, 0.0, 0.0]]);
+    let length = "G10 L10 P1 R4.\nG0 X#2001";
+    assert_eq!(ends_with(length, of(OffsetMemory::Haas)), [[4.0, 0.0, 0.0]]);
+}
+
+#[test]
 fn offsets_are_set_as_the_control_sets_them() {
     assert_eq!(
         last("G10 L2 P1 X10\nG91 G10 L2 P1 X5\nG90 G54 G0 X0")[0],
@@ -218,6 +244,16 @@ fn offsets_are_set_as_the_control_sets_them() {
         last("G10 L20 P1 X30 Y20\nG54.1 P1 G0 X1 Y1"),
         [31.0, 21.0, 0.0]
     );
+    // P is the number of the offset in a cycle, too, and no dwell; that of the cycle stays.
+    let drilled = "G10 L20 P1 X30\nG0 Z9\nG99 G82 X1 Y0 Z-5 R2 P100 F100\nG54.1 P1 X2\nG54 P1 X3";
+    let dwells: Vec<f64> = Program::new(drilled.as_bytes(), options())
+        .filter_map(|item| match item.expect("a sound program").kind {
+            ItemKind::Dwell(seconds) => Some(seconds),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(dwells, [0.1, 0.1, 0.1]);
+    assert_eq!(last(drilled), [33.0, 0.0, 2.0]);
     assert_eq!(
         last("G10 L10 P1 R20.\nG10 L11 P1 R0.5\nG0 G43 H1 Z0")[2],
         20.5

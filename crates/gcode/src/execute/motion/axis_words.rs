@@ -132,6 +132,9 @@ impl Interpreter {
     }
 
     pub(crate) fn check_axes(&self, block: &Block) -> Outcome<()> {
+        if block.has_increments() && block.get(b'H').is_some() {
+            self.check_axis_of_h(block)?;
+        }
         if !block.has_any(self.lacking) || block.has_increments() && self.has_lathe_axes(block) {
             return Ok(());
         }
@@ -171,6 +174,19 @@ impl Interpreter {
                 .help("remove the word, or configure the axis"))
             }
         }
+    }
+
+    /// H of a lathe is the increment of C.
+    fn check_axis_of_h(&self, block: &Block) -> Outcome<()> {
+        if self.options.machine.has(Axis::C) {
+            return Ok(());
+        }
+        let message = "the machine has no C axis";
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::AxisNotConfigured, block.span(b'H'), message)
+                .because("H is the increment of C on a FANUC's lathe")
+                .help("remove the word, or configure the axis"),
+        )
     }
 
     /// Axis words in mm and degrees, X and Y in the place of polar words, X halved in diameter

@@ -224,6 +224,11 @@ fn the_speed_of_the_spindle_has_a_range() {
     finds("G26 X100", &["1:1 not-supported"]);
     finds("G25", &["1:1 missing-word"]);
     finds("G26 S0", &["1:5 invalid-value"]);
+    let report = check(&b"G25 S100 G26 S3000"[..], options());
+    assert_eq!(
+        report.diagnostics[0].message,
+        "a second S of G26 in the block"
+    );
 }
 
 #[test]

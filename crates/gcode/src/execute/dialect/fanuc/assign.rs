@@ -9,7 +9,7 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::fanuc::tool_variables::{ToolPart, direction, is_of_tools};
-use crate::execute::dialect::fanuc::variables::{EXTENDED, NO_VARIABLE, OF_THE_MEMORY, Variable};
+use crate::execute::dialect::fanuc::variables::{EXTENDED, NO_VARIABLE, Variable};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::program::Program;
 use crate::summary::remark::{Remark, RemarkKind};
@@ -46,7 +46,7 @@ impl<R: BufRead> Program<R> {
             Variable::Mode(_) | Variable::Address(_) | Variable::Place(..) => {
                 "it shows what is in force, and where the machine is"
             }
-            Variable::Unknown if is_of_tools(number) => OF_THE_MEMORY,
+            Variable::Unknown if is_of_tools(number) => self.scope().why_no_offset(number),
             Variable::Unknown => NO_VARIABLE,
         };
         let message = format!("#{number} cannot be assigned");

@@ -5,7 +5,7 @@
 //! | G10 L2 P0, P1 to P6 | the external offset, G54 to G59; in G91 the words are added |
 //! | G10 L20 P1 and on | G54.1 P1 and on; no other system changes, and nothing moves |
 //! | G10 L10, L11 P R | length of a tool, its wear; in G91 R is added |
-//! | G10 L12, L13 P R | radius of a tool, its wear |
+//! | G10 L12, L13 P R | radius of a tool, its wear; of a Haas refused: setting 40 may have it a diameter |
 
 use std::sync::Arc;
 
@@ -15,6 +15,7 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::block_words::{require_axes, takes_number};
+use crate::execute::dialect::fanuc::tool_variables::OF_SETTING_40;
 use crate::execute::interpreter::Interpreter;
 use crate::setup::tool_table::{MAX_TOOL, Tool, ToolTable};
 use crate::syntax::block::Block;
@@ -100,6 +101,16 @@ impl Interpreter {
             !block.has_any(AXIS_WORDS),
             "an axis word would have been refused"
         );
+        if matches!(kind, 12 | 13) && self.options.fanuc.is_haas() {
+            let message = format!("G10 L{kind} of a Haas is a radius or a diameter");
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::NotSupported,
+                block.span(b'L'),
+                message,
+            )
+            .because(OF_SETTING_40)
+            .help("write the diameter into the tool table"));
+        }
         let number = whole(block, b'P', MAX_TOOL)?
             .filter(|number| *number > 0)
             .ok_or_else(|| missing(span, "G10", "P", "the number of the offset"))?;

@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | `#2001` … | length | wear of the length | length |
 //! | `#2201` … | – | length | its wear |
-//! | `#2401` …, `#2601` … | – | – | radius, its wear |
+//! | `#2401` …, `#2601` … | – | – | refused: radius or diameter by setting 40 |
 //! | `#10001` …, `#11001` … | – | wear of the length, length | – |
 //! | `#12001` …, `#13001` … | – | wear of the radius, radius | – |
 //!
@@ -48,6 +48,15 @@ pub(super) enum ToolPart {
     AcrossWear,
     /// The direction of the tip of a lathe's tool, in the control's numbers.
     Direction,
+}
+
+/// Why the radius of a tool is not known on a Haas' mill.
+pub(super) const OF_SETTING_40: &str =
+    "setting 40 of the control says which of them it is, and that is not known here";
+
+/// True for the radius of a tool, or its wear, on a Haas' mill: #2401, #2601 and on.
+pub(super) const fn is_of_setting_40(number: u32) -> bool {
+    matches!(number, 2401..=2800)
 }
 
 /// True for the numbers of tool offsets in any of the memories.
@@ -107,12 +116,7 @@ pub(super) fn tool_variable(
         (12_000, 999, RadiusWear),
         (13_000, 999, Radius),
     ];
-    let of_mill_haas = [
-        (2000, 200, Length),
-        (2200, 200, LengthWear),
-        (2400, 200, Radius),
-        (2600, 200, RadiusWear),
-    ];
+    let of_mill_haas = [(2000, 200, Length), (2200, 200, LengthWear)];
     let parts: &[(u32, u32, ToolPart)] = match (is_lathe, memory) {
         (_, OffsetMemory::Unsaid) => &[],
         (false, OffsetMemory::A) => &[(2000, 200, LengthAll)],

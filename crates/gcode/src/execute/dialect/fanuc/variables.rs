@@ -16,7 +16,9 @@
 
 use glidepath_geometry::{Axis, AxisVector};
 
-use crate::execute::dialect::fanuc::tool_variables::{ToolPart, is_of_tools, tool_variable};
+use crate::execute::dialect::fanuc::tool_variables::{
+    OF_SETTING_40, ToolPart, is_of_setting_40, is_of_tools, tool_variable,
+};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::scope::{ProgramScope, in_units};
 use crate::syntax::expression::vacant::VACANT;
@@ -121,7 +123,7 @@ fn variable(number: u32) -> Variable {
 
 pub(super) const NO_VARIABLE: &str = "it is not known here what it is: variables are #1 to #33, #100 to #199, #500 to #999, and \
                            those of the system that the manual lists";
-pub(super) const OF_THE_MEMORY: &str = "what it is depends on how the control divides the memory of tool offsets: say it by \
+const OF_THE_MEMORY: &str = "what it is depends on how the control divides the memory of tool offsets: say it by \
                              `offset_memory` of [program] in the configuration";
 
 impl ProgramScope<'_> {
@@ -138,7 +140,7 @@ impl ProgramScope<'_> {
     pub(crate) fn refused_variable(&self, number: u32) -> Option<&'static str> {
         match self.variable(number) {
             Variable::Clock => Some("what a program does must not depend on when it runs"),
-            Variable::Unknown if is_of_tools(number) => Some(OF_THE_MEMORY),
+            Variable::Unknown if is_of_tools(number) => Some(self.why_no_offset(number)),
             Variable::Unknown => Some(NO_VARIABLE),
             Variable::Mode(group) if self.interpreter.mode(group).is_none() => {
                 Some("no mode of that group is known here")
@@ -149,6 +151,17 @@ impl ProgramScope<'_> {
                 Some("the machine has no axis of that number")
             }
             _ => None,
+        }
+    }
+
+    /// Why an offset of a tool is not known.
+    pub(super) fn why_no_offset(&self, number: u32) -> &'static str {
+        let options = &self.interpreter.options;
+        let of_mill = !options.is_fanuc_lathe();
+        if of_mill && options.fanuc.is_haas() && is_of_setting_40(number) {
+            OF_SETTING_40
+        } else {
+            OF_THE_MEMORY
         }
     }
 
