@@ -137,7 +137,11 @@ pub(super) fn has_number_of_system(block: &Block) -> bool {
 
 /// P, where it is the number of a work offset.
 fn taken_by_systems(block: &Block) -> Letters {
-    Letters::of(if has_number_of_system(block) { b"P" } else { b"" })
+    Letters::of(if has_number_of_system(block) {
+        b"P"
+    } else {
+        b""
+    })
 }
 
 /// The words of FANUC's frames, of codes that are read over, and of printers' places.
