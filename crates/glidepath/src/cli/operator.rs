@@ -69,7 +69,7 @@ pub struct OverrideArgs {
     /// Percent of the speed of jogs, 0 to 100
     #[arg(long, value_name = "PERCENT", value_parser = rapid_percent, group = "factor")]
     pub jog: Option<f64>,
-    /// Percent of the programmed speed of the spindle, within `override_min` and `override_max` of [spindle]
+    /// Percent of the programmed speed of the spindle, within `override_min` and `override_max` of `[spindle]`
     #[arg(long, value_name = "PERCENT", value_parser = spindle_percent, group = "factor")]
     pub spindle: Option<f64>,
     /// The interpolator that is meant.
