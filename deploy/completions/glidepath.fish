@@ -300,7 +300,7 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand single-block" -l jso
 complete -c glidepath -n "__fish_glidepath_using_subcommand single-block" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c glidepath -n "__fish_glidepath_using_subcommand override" -l rapid -d 'Percent of the speed of rapids, 0 to 100' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand override" -l jog -d 'Percent of the speed of jogs, 0 to 100' -r
-complete -c glidepath -n "__fish_glidepath_using_subcommand override" -l spindle -d 'Percent of the programmed speed of the spindle, within `override_min` and `override_max` of [spindle]' -r
+complete -c glidepath -n "__fish_glidepath_using_subcommand override" -l spindle -d 'Percent of the programmed speed of the spindle, within `override_min` and `override_max` of `[spindle]`' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand override" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand override" -l instance -d 'Name of the machine\'s shared memory; overrides `link.instance` of the configuration' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand override" -l json -d 'Print one JSON object instead of text'
