@@ -16,7 +16,9 @@ pub(crate) fn is_bound_by_feed(
 ) -> bool {
     let asked_a = feed_v * feed_v / radius_mm;
     let asked_j = asked_a * feed_v / radius_mm;
-    axes.into_iter()
-        .map(Axis::index)
-        .all(|i| asked_a <= BOUND_R * limits.acceleration[i] && asked_j <= BOUND_R * limits.jerk[i])
+    axes.into_iter().map(Axis::index).all(|i| {
+        feed_v <= BOUND_R * limits.velocity[i]
+            && asked_a <= BOUND_R * limits.acceleration[i]
+            && asked_j <= BOUND_R * limits.jerk[i]
+    })
 }

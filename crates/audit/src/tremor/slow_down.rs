@@ -3,15 +3,14 @@
 
 use super::matched_sample::MatchedSample;
 use super::round::is_bound_by_feed;
-use crate::piece::{Piece, Shape};
+use crate::piece::Shape;
 use crate::settings::AuditSettings;
 use crate::violation::{ViolationKind, ViolationList};
 use glidepath_geometry::ROTARY_ABC;
 
-/// Speed is the feed if it is off by no more than this share.
+/// Speed is the feed if it is off by no more than this share. One that is faster is none: at the corner from a slow move
+/// to a rapid, the end of the slow one is driven faster than its feed.
 const REACHED_R: f64 = 0.005;
-/// Samples in a row in which it is: a motion that rounds a corner from a slow move to a rapid passes its feed, too.
-const REACHED_IN: u32 = 2;
 /// A motion has slowed down if it is below the feed by more than this share: as far as that, it is a cruise.
 const SLOW_R: f64 = 0.05;
 
@@ -29,8 +28,6 @@ pub(crate) struct SlowDown {
 struct Run {
     piece: u64,
     feed_v: f64,
-    /// Samples in a row at the feed, up to this one.
-    at_feed: u32,
     /// It was the feed.
     is_reached: bool,
     /// The slowest sample since, if it is slower than a cruise.
@@ -60,51 +57,29 @@ impl SlowDown {
 
     /// The next sample.
     pub(crate) fn next(&mut self, place: &MatchedSample, found: &mut ViolationList) {
-        let is_at_feed = (place.speed_v - place.feed_v).abs() <= REACHED_R * place.feed_v;
+        let Some(piece) = place.piece.as_ref().filter(|_| self.is_judged(place)) else {
+            self.run = None;
+            return;
+        };
         #[allow(clippy::float_cmp, reason = "the feed of a piece is one number")]
-        let is_same = |run: &Run, piece: &Piece| {
-            run.piece == piece.number && run.feed_v == place.feed_v && place.ticks == 1
-        };
-        // Nearly all samples: at the feed, as those before.
-        if let (Some(run), Some(piece)) = (&self.run, &place.piece)
-            && is_at_feed
-            && run.is_reached
-            && run.slowest.is_none()
-            && !place.is_between_frames
-            && is_same(run, piece)
-        {
-            return;
-        }
-        let Some(piece) = place.piece.as_ref().filter(|_| self.keeps_the_feed(place)) else {
-            self.run = None;
-            return;
-        };
-        if self.run.as_ref().is_some_and(|run| !is_same(run, piece)) {
-            self.run = None;
-        }
+        let goes_on = |run: &Run| run.piece == piece.number && run.feed_v == place.feed_v;
+        self.run = self.run.take().filter(goes_on);
         let run = self.run.get_or_insert(Run {
             piece: piece.number,
             feed_v: place.feed_v,
-            at_feed: 0,
             is_reached: false,
             slowest: None,
         });
-        if is_at_feed {
-            run.at_feed += 1;
-            if run.at_feed >= REACHED_IN {
-                run.is_reached = true;
-                if let Some(slow) = run.slowest.take() {
-                    let kind = ViolationKind::SlowedDown {
-                        speed_v: slow.speed_v,
-                        feed_v: place.feed_v,
-                    };
-                    found.push(slow.tick, slow.line, kind);
-                }
+        if (place.speed_v - place.feed_v).abs() <= REACHED_R * place.feed_v {
+            run.is_reached = true;
+            if let Some(slow) = run.slowest.take() {
+                let kind = ViolationKind::SlowedDown {
+                    speed_v: slow.speed_v,
+                    feed_v: place.feed_v,
+                };
+                found.push(slow.tick, slow.line, kind);
             }
-            return;
-        }
-        run.at_feed = 0;
-        if run.is_reached
+        } else if run.is_reached
             && place.speed_v < (1.0 - SLOW_R) * place.feed_v
             && run.slowest.is_none_or(|slow| place.speed_v < slow.speed_v)
         {
@@ -123,7 +98,7 @@ impl SlowDown {
 
     /// True where nothing but the feed bounds the speed: where program time runs at its own rate, on a line in
     /// space, or on an arc that leaves the axes room.
-    fn keeps_the_feed(&self, place: &MatchedSample) -> bool {
+    fn is_judged(&self, place: &MatchedSample) -> bool {
         if self.has_joints
             || place.is_between_frames
             || place.ticks != 1

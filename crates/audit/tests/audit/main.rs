@@ -9,6 +9,7 @@ mod limits;
 mod planted;
 mod program;
 mod shape;
+mod slow_down;
 mod timing;
 mod travel;
 mod tremor;

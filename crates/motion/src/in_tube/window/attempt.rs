@@ -240,11 +240,17 @@ fn attempt_along<const D: usize>(
         commit: context.commit,
         bias: context.bias,
     };
+    let start = StartOffset::new(
+        path,
+        (piece, window_start.progress),
+        &path.inside(&context.history.last()),
+        settling_periods(path, context.period_t),
+    );
     // The judge sees positions as they are handed out, not control points in the window's space: what
     // rounding makes of them is judged, too.
     let mut judge = |points: &[[f64; D]], question| {
         let points: Vec<_> = points.iter().map(|point| path.outside(point)).collect();
-        passes((context, path), &points, question)
+        passes((context, path, &start), &points, question)
     };
     let solution = match context.search {
         WindowSearch::Whole(most_work) => {
@@ -274,7 +280,7 @@ fn end_exactly(context: &WindowContext<'_>, points: &mut [AxisVector]) {
 
 /// Follows a motion to its rest.
 fn passes<const D: usize>(
-    (context, path): (&WindowContext<'_>, &ScaledPath<D>),
+    (context, path, start): (&WindowContext<'_>, &ScaledPath<D>, &StartOffset<D>),
     points: &[AxisVector],
     question: JudgeQuestion,
 ) -> bool {
@@ -285,7 +291,6 @@ fn passes<const D: usize>(
     let mut history = context.history.clone();
     let mut follower = context.follower.to(context.end);
     let mut place = context.progress;
-    let start = start_offset(context, path);
     let periods = context.grid.periods_in(points.len() - 3);
     // Into the rest, too, as far as third differences look back.
     for period in 1..=periods + 3 {
@@ -317,7 +322,7 @@ fn passes<const D: usize>(
         if context.corners == Corners::Inner {
             let reachable = &follower.reachable;
             place = reachable.nearest(context.reference_path, &next.position, place);
-            if !path.is_on_its_sides(place, [&before, &next.position], (period - 1, &start)) {
+            if !path.is_on_its_sides(place, [&before, &next.position], (period - 1, start)) {
                 return false;
             }
         }
@@ -327,24 +332,6 @@ fn passes<const D: usize>(
     let may_set_out = follower.least_reach() >= follower.reachable.last();
     may_set_out
         && (question == JudgeQuestion::IsValid || follower.reachable.is_at_end_of(context.end - 1))
-}
-
-/// How far a window begins beside the path.
-fn start_offset<const D: usize>(
-    context: &WindowContext<'_>,
-    path: &ScaledPath<D>,
-) -> StartOffset<D> {
-    let (index, u) = context.progress;
-    let i = index - path.first;
-    let along = path.segments.get(i);
-    let progress = along.map_or(0.0, |segment| segment.s + segment.length * u);
-    let settling_periods = settling_periods(path, context.period_t);
-    StartOffset::new(
-        path,
-        (i, progress),
-        &path.inside(&context.history.last()),
-        settling_periods,
-    )
 }
 
 /// False if no motion with no more jerk than that of each axis can lead from one state to the next: a jerk of
