@@ -21,8 +21,8 @@ fn falling_behind(
     let length_mm = segment.length();
     assert!((length_mm - LENGTH_MM).abs() < 1e-9);
     audit.program(&at_feed(1, segment));
-    let along = |tick: u32| {
-        let s = distance(f64::from(tick) * PERIOD, length_mm + by_mm);
+    let along = |tick: u64| {
+        let s = distance(tick as f64 * PERIOD, length_mm + by_mm);
         let u = ((s - 30.0) / 40.0).clamp(0.0, 1.0);
         s - by_mm * u.powi(3) * (10.0 - 15.0 * u + 6.0 * u * u)
     };
@@ -30,7 +30,7 @@ fn falling_behind(
     loop {
         let s = along(tick);
         let position = segment.jet(s.min(length_mm)).position;
-        let mut sample = sample(tick.into(), position);
+        let mut sample = sample(tick, position);
         sample.is_between_frames = is_between_frames;
         audit.sample(&sample);
         if tick > 0 && s <= along(tick - 1) {
@@ -44,8 +44,7 @@ fn falling_behind(
     let slow = found.filter_map(|tremor| match tremor.kind {
         ViolationKind::SlowedDown { speed_v, feed_v } => {
             assert!((feed_v - FEED_V).abs() < 1e-9, "{feed_v}");
-            let tick = u32::try_from(tremor.tick).expect("a few");
-            Some((along(tick), speed_v))
+            Some((along(tremor.tick), speed_v))
         }
         _ => None,
     });

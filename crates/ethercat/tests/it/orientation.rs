@@ -75,16 +75,9 @@ impl Case for Orienting {
         if let Some(said) = hands.feedback {
             self.flags.push(SpindleFlags(said.spindle_flags));
         }
-        let (state, rested) = (hands.state(), hands.tick > self.asked + 25);
+        hands.set_out(&mut self.asked, &mut self.began, self.program);
+        let state = hands.state();
         match (state, self.began) {
-            (Some(MachineState::Off), None) if rested => {
-                hands.wants.command = Some(Command::Enable);
-                self.asked = hands.tick;
-            }
-            (Some(MachineState::Idle), None) if rested => {
-                hands.wants.program = Some(self.program);
-                self.began = Some(hands.tick);
-            }
             (_, Some(_))
                 if self.done.is_none()
                     && self.upset != Upset::Nothing

@@ -171,16 +171,9 @@ impl Case for Cutting {
             self.loads.push((status, said.spindle_load));
         }
         self.runs = hands.state() == Some(MachineState::Running);
-        let (state, rested) = (hands.state(), hands.tick > self.asked + 25);
+        hands.set_out(&mut self.asked, &mut self.began, self.program);
+        let state = hands.state();
         match (state, self.began) {
-            (Some(MachineState::Off), None) if rested => {
-                hands.wants.command = Some(Command::Enable);
-                self.asked = hands.tick;
-            }
-            (Some(MachineState::Idle), None) if rested => {
-                hands.wants.program = Some(self.program);
-                self.began = Some(hands.tick);
-            }
             (Some(MachineState::Running), Some(_)) if self.done.is_none() => {
                 let moves = hands.last.is_some_and(|s| s.position[0] > 3.0);
                 if moves && self.upset != Upset::Nothing {

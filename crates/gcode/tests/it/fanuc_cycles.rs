@@ -13,7 +13,12 @@ pub(crate) fn last(text: &str) -> [f64; 3] {
 }
 
 fn dwells(text: &str) -> Vec<f64> {
-    Program::new(text.as_bytes(), options())
+    dwells_of(text, options())
+}
+
+/// Seconds of every dwell.
+pub(crate) fn dwells_of(text: &str, options: Options) -> Vec<f64> {
+    Program::new(text.as_bytes(), options)
         .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
         .filter_map(|item| match item.kind {
             ItemKind::Dwell(seconds) => Some(seconds),

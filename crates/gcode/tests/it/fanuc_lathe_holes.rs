@@ -4,6 +4,7 @@ use glidepath_gcode::{FanucControl, FanucParameters, Machine, OffsetMemory, Prog
 use glidepath_geometry::Axis;
 use glidepath_program::ItemKind;
 
+use crate::fanuc_cycles::dwells_of;
 use crate::fanuc_lathe_passes::{ends_with, options, with};
 
 #[test]
@@ -117,13 +118,7 @@ fn c_turns_on_the_way_to_a_hole_on_the_face() {
 fn p_of_holes_on_the_face_is_a_dwell_at_the_bottom() {
     let dwells = |cycle: &str| -> Vec<f64> {
         let text = format!("G98 G0 X0 Z10\n{cycle} Z-30 R-8 P1500 F200");
-        Program::new(text.as_bytes(), options())
-            .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
-            .filter_map(|item| match item.kind {
-                ItemKind::Dwell(seconds) => Some(seconds),
-                _ => None,
-            })
-            .collect()
+        dwells_of(&text, options())
     };
     assert_eq!(dwells("G83"), [1.5]);
     assert_eq!(dwells("G83 Q9000"), [1.5]);

@@ -55,6 +55,29 @@ impl Hands<'_> {
     pub(crate) fn state(&self) -> Option<MachineState> {
         self.last.and_then(|setpoint| setpoint.state().ok())
     }
+
+    /// Gives power, and then runs a program: the commands of a case that has not begun.
+    pub(crate) fn set_out(
+        &mut self,
+        asked: &mut u64,
+        began: &mut Option<u64>,
+        program: &'static str,
+    ) {
+        if began.is_some() || self.tick <= *asked + 25 {
+            return;
+        }
+        match self.state() {
+            Some(MachineState::Off) => {
+                self.wants.command = Some(Command::Enable);
+                *asked = self.tick;
+            }
+            Some(MachineState::Idle) => {
+                self.wants.program = Some(program);
+                *began = Some(self.tick);
+            }
+            _ => {}
+        }
+    }
 }
 
 /// What a case came to.
