@@ -7,9 +7,10 @@ use glidepath_emulator::Segment;
 use glidepath_ethercat::Event;
 use glidepath_link::{Command, MachineState, SpindleState};
 
-const TURNING: &str = "G21 G90 G64 P0.02 F3000\nM3 S6000\nM8\nM62 P5\nG1 X1\nM2\n";
+/// Without M2, which would stop spindle and coolant at its end.
+const TURNING: &str = "G21 G90 G64 P0.02 F3000\nM3 S6000\nM8\nM62 P5\nG1 X1\n";
 const LONG: &str = "G21 G90 G64 P0.02 F3000\nM3 S6000\nM8\nM62 P5\nG1 X50\nM2\n";
-const NEXT: &str = "G21 G90 G64 P0.02 F3000\nM3 S6000\nG1 X5 Y5\nM2\n";
+const NEXT: &str = "G21 G90 G64 P0.02 F3000\nM3 S6000\nG1 X5 Y5\n";
 /// The host stands still for 60 ms.
 const PAUSE: u64 = 15;
 

@@ -6,7 +6,7 @@ use glidepath_emulator::Segment;
 use glidepath_link::{Command, MachineState};
 
 pub(super) const MARKED: &str =
-    "G21 G90 G64 P0.02 F6000\nM3 S6000\nM8\nM62 P5\nG1 X10\nM63 P5\nM62 P6\nG1 X0\nM2\n";
+    "G21 G90 G64 P0.02 F6000\nM3 S6000\nM8\nM62 P5\nG1 X10\nM63 P5\nM62 P6\nG1 X0\n";
 pub(super) const TOUCH: &str = "G21 G90 F300\nG38.2 Z-20\n";
 pub(super) const LONG: &str = "G21 G90 G64 P0.02 F3000\nM3 S6000\nM8\nM62 P5\nG1 X50\nM2\n";
 

@@ -37,13 +37,13 @@ fn a_whole_life_with_terminals() {
     let (kind, z) = shift.contact.unwrap();
     assert_eq!(kind, ContactKind::Made.code());
     assert!((z - PART_Z).abs() < 5.0 * 0.008, "{z}");
-    // Spindle and coolant are on after a program that does not switch them off, and off after an abort,
-    // which leaves outputs of programs as they are.
+    // Spindle and coolant are on after a program that does not switch them off, and off after M2 and an abort,
+    // which leave outputs of programs as they are.
     let (running, aborted) = (FORWARD | FLOOD, FIFTH | LAMP);
     assert_eq!(shift.after[0], (running | LAMP, QUARTER));
     assert_eq!(shift.during[2], (running | FIFTH | LAMP, QUARTER));
     assert_eq!(shift.after[2], (aborted, 0));
-    assert_eq!(shift.after[3], (running | aborted, QUARTER));
+    assert_eq!(shift.after[3], (aborted, 0));
     // M62 and M63 are in place to the period of the bus: half of it before to half of it after.
     let records = outcome.left.0.take_output_records(OUTPUTS);
     let seen = output_changes(&records, FIFTH);
