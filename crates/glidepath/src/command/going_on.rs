@@ -139,7 +139,8 @@ pub(super) fn told(
     }
     let is_lifted = how.lifts && matches!(error, RunError::Aborted);
     match tried {
-        Ok(()) if is_lifted => format!(
+        // The tool axis may still rise, so how far it is away now is not told.
+        Ok(()) | Err(Obstacle::Away(_)) if is_lifted => format!(
             "it was left in line {line}, and {command} goes on from there; if the abort raised the tool axis (lift of \
              [jog]), bring it back first: --resume says how far"
         ),
