@@ -10,6 +10,7 @@
 )]
 
 mod carried;
+mod compensated_arcs;
 mod corpus;
 mod corpus_refused;
 mod damaged;

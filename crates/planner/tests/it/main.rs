@@ -7,6 +7,7 @@ mod curves_on_machines;
 mod directions;
 mod families;
 mod from_line;
+mod inner_side;
 mod joints;
 mod kept_feed;
 mod listen;

@@ -149,6 +149,14 @@ impl Element {
             *sweep *= 1.0 - left_out;
         }
     }
+
+    /// Starts it at a point next to its start, before it or after it.
+    pub(super) fn start_beside(&mut self, at: Point) {
+        if let Some((center, sweep)) = &mut self.arc {
+            *sweep -= turn(minus(self.start, *center), minus(at, *center));
+        }
+        self.start = at;
+    }
 }
 
 /// Where the tool turns round a convex corner in straight lines: the end of one side and the beginning of the
@@ -276,6 +284,22 @@ mod tests {
         };
         let met = meet(&east, &arc).expect("it does");
         assert!(near(met, [4.0 + 24.0_f64.sqrt(), 1.0]));
+    }
+
+    #[test]
+    fn an_arc_begins_a_little_earlier_or_later_and_ends_where_it_did() {
+        for sweep in [FRAC_PI_2, -1.5 * PI, 2.5 * PI] {
+            for turned in [-1e-3_f64, 1e-3] {
+                let mut arc = Element {
+                    start: [5.0, 0.0],
+                    end: [0.0, 5.0],
+                    arc: Some(([0.0, 0.0], sweep)),
+                };
+                arc.start_beside([5.001 * turned.cos(), 5.001 * turned.sin()]);
+                let swept = arc.arc.expect("an arc").1;
+                assert!((swept - (sweep - turned)).abs() < 1e-12, "{sweep} {turned}");
+            }
+        }
     }
 
     #[test]

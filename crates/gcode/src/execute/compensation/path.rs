@@ -206,7 +206,7 @@ impl Compensation {
             last.path.end = next.path.start;
             self.give(&last, out);
         } else if gap <= SMOOTH_MM {
-            next.path.start = last.path.end;
+            next.path.start_beside(last.path.end);
             self.give(&last, out);
         } else if self.is_concave(&last.of.contour, &next.of.contour) {
             let corner =

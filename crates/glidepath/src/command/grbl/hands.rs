@@ -9,9 +9,10 @@ use crate::config::MachineConfig;
 use glidepath_geometry::AXES;
 use glidepath_grbl::Act;
 use glidepath_link::{Command, CommandRequest, EventId, LinkConfig, LinkError, Operator, Status};
+use glidepath_realtime::{Clock as _, Monotonic};
 use std::io;
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Why a command was not given.
 const STOPPED: &str = "a stop was asked for behind it";
@@ -93,12 +94,12 @@ impl Hands {
                         by,
                         most_v,
                     },
-                    act,
+                    (act, asked_ns),
                 );
                 return;
             }
             Act::LetGo => {
-                self.hand(Hand::LetGo, act);
+                self.hand(Hand::LetGo, (act, asked_ns));
                 return;
             }
             Act::Judge(_) => return,
@@ -110,8 +111,11 @@ impl Hands {
         }
     }
 
-    fn hand(&mut self, hand: Hand, act: Act) {
-        if !self.jogger.hand(hand) {
+    fn hand(&mut self, hand: Hand, (act, asked_ns): (Act, u64)) {
+        let age = Duration::from_nanos(Monotonic.now_ns().saturating_sub(asked_ns));
+        let now = Instant::now();
+        let at = now.checked_sub(age).unwrap_or(now);
+        if !self.jogger.hand_asked(hand, at) {
             self.untold.push((act, "nobody jogs any more".to_owned()));
         }
     }

@@ -94,7 +94,12 @@ impl Jogger {
 
     /// Has axes moved. Returns whether there is anybody to do it.
     pub(in crate::command) fn hand(&self, hand: Hand) -> bool {
-        self.hands.send((hand, Instant::now())).is_ok()
+        self.hand_asked(hand, Instant::now())
+    }
+
+    /// The same, of what was asked for at a time: a stop behind it is not answered by motion.
+    pub(in crate::command) fn hand_asked(&self, hand: Hand, at: Instant) -> bool {
+        self.hands.send((hand, at)).is_ok()
     }
 }
 
