@@ -7,7 +7,7 @@ const COOLANTS = { mist: 'M7', flood: 'M8', 'mist and flood': 'M7 M8' };
 /* The spindle: how fast it turns, where somebody measures it, else how fast it is told to; what it is to have, in the words of programs; its load, and coolant. */
 function spindleDigits() {
   const s = S.status, told = s.spindle, isMeasured = typeof s.spindle_rpm === 'number', locked = isLocked(), tile = $('[data-ov=spindle-override]');
-  const code = told && { clockwise: 'M3', counterclockwise: 'M4', oriented: 'M19' }[told.turns], turns = code && code !== 'M19', isSilent = s.feedback_age_ms > 500;
+  const code = told && { clockwise: 'M3', counterclockwise: 'M4', oriented: 'M19' }[told.turns], turns = code && code !== 'M19', isSilent = drivesAreSilent();
   // Drives that say nothing any more leave nobody who knows whether it turns.
   const speed = isMeasured ? Math.abs(s.spindle_rpm) : !told || isSilent ? null : turns ? told.speed : 0;
   const load = typeof s.spindle_load === 'number' ? `load ${Math.round(s.spindle_load * 100)} %` : '';

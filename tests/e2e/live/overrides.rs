@@ -9,7 +9,7 @@ use super::life::{HALF, press};
 use super::operated_page::operated_page;
 
 /// Waits for a person in front of motion at the feed and rapids, so that the plan is known before any of it is executed.
-const PROGRAM: &str = "G21 G90 F1200\nM0\nG1 X40\nG0 Y60\nG1 X0\nG0 Y0\nG1 X40\nX0\nG0 Y60\nM2\n";
+const PROGRAM: &str = "G21 G90 F3000\nM0\nG1 X40\nG0 Y60\nG1 X0\nG0 Y0\nG1 X40\nX0\nG0 Y60\nM2\n";
 
 const CAUSE: &str = "document.querySelector('#why').textContent";
 const GO: &str = "document.querySelector('[data-c=go]').innerText.replace(/\\s+/g, ' ').trim()";

@@ -115,6 +115,9 @@ fn looks_well(looked: &Looked<'_>, instance: &Instance) {
         "faulted",
         &["operate", "setup", "health"],
     );
+    // What silent drives said last is not told as so now.
+    browser.wait("document.querySelector('#spin').textContent === '–'");
+    browser.wait("document.querySelector('#a-fol').textContent.startsWith('Not known')");
     servo.signal(Signal::CONT);
     let _ended = running.wait();
     drop(live);
