@@ -115,7 +115,12 @@ const SQUARE: &str = "G21 G90 G54\nG0 X0 Y0 Z0\nG1 X60 F900\nY60\nX0\nY0\nX60\nM
 fn what_was_left_on_the_way_to_its_line_is_begun_there_again() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let simulated = ("source = \"drives\"", "source = \"none\"");
-    let bench = Operated::new(&instance, &[simulated], "");
+    // The way to a line goes over the top of Z, and down from there at the feed.
+    let low = (
+        "[axis.Z]\nmin_position = -500.0\nmax_position = 500.0",
+        "[axis.Z]\nmin_position = -500.0\nmax_position = 40.0",
+    );
+    let bench = Operated::new(&instance, &[simulated, low], "");
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
     let _idle = bench.wait_for(MachineState::Idle);
     let service = bench.service();

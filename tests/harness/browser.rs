@@ -6,6 +6,7 @@ use std::os::unix::process::CommandExt as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::rc::Rc;
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use glidepath_testing::skip;
@@ -38,18 +39,13 @@ impl Browser {
     /// Starts Chromium with a window of this size; `None`, aloud, where there is none.
     #[must_use]
     pub fn start(width: u32, height: u32) -> Option<Self> {
-        let names = [
-            // The same without the windows that nobody sees: it takes a seventh of the time to start.
-            "chromium-headless-shell",
-            "chromium",
-            "chromium-browser",
-            "google-chrome",
-        ];
-        let runs = |name: &&&str| {
-            let told = Command::new(name).arg("--version").output();
-            told.is_ok_and(|output| output.status.success())
-        };
-        let Some(name) = names.iter().find(runs) else {
+        Self::start_with((width, height), &[])
+    }
+
+    /// The same with arguments of its own.
+    #[must_use]
+    pub fn start_with((width, height): (u32, u32), more: &[&str]) -> Option<Self> {
+        let Some(name) = installed() else {
             skip("a page in a browser", "Chromium is not installed");
             return None;
         };
@@ -63,6 +59,7 @@ impl Browser {
             .args(["--disable-background-networking", "--remote-debugging-pipe"])
             .arg(format!("--user-data-dir={}", profile.path().display()))
             .arg(format!("--window-size={width},{height}"))
+            .args(more)
             .arg("about:blank")
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -208,6 +205,20 @@ impl Browser {
         panic!("{selector} is not under the finger");
     }
 
+    /// Keeps a picture of the page, where the environment names a folder for it (`GLIDEPATH_PICTURES`).
+    pub fn picture(&mut self, name: &str) {
+        let Some(folder) = std::env::var_os("GLIDEPATH_PICTURES") else {
+            return;
+        };
+        // Until what is to be painted is.
+        std::thread::sleep(Duration::from_millis(400));
+        let taken = self.call("Page.captureScreenshot", &json!({ "format": "png" }));
+        let picture = decoded(taken["data"].as_str().unwrap());
+        std::fs::create_dir_all(&folder).unwrap();
+        let file = std::path::Path::new(&folder).join(format!("{name}.png"));
+        std::fs::write(file, picture).unwrap();
+    }
+
     /// Moves a finger that is down, by px to the right of where it came down.
     pub fn finger_moved(&mut self, place: &Value, by: f64) {
         let x = place[0].as_f64().unwrap() + by;
@@ -234,6 +245,44 @@ impl Browser {
         });
         let _done = self.call("Input.dispatchMouseEvent", &event);
     }
+}
+
+/// The browser of this host that answers first; `None` where there is none.
+fn installed() -> Option<&'static str> {
+    static FOUND: OnceLock<Option<&str>> = OnceLock::new();
+    let names = [
+        // The same without the windows that nobody sees: it takes a seventh of the time to start.
+        "chromium-headless-shell",
+        "chromium",
+        "chromium-browser",
+        "google-chrome",
+    ];
+    let runs = |name: &&str| {
+        let told = Command::new(name).arg("--version").output();
+        told.is_ok_and(|output| output.status.success())
+    };
+    *FOUND.get_or_init(|| names.into_iter().find(runs))
+}
+
+/// The bytes of a text in base64 (RFC 4648).
+fn decoded(text: &str) -> Vec<u8> {
+    let digits = text.bytes().filter_map(|byte| {
+        Some(u32::from(match byte {
+            b'A'..=b'Z' => byte - b'A',
+            b'a'..=b'z' => byte - b'a' + 26,
+            b'0'..=b'9' => byte - b'0' + 52,
+            b'+' => 62,
+            b'/' => 63,
+            _ => return None,
+        }))
+    });
+    let digits: Vec<u32> = digits.collect();
+    let whole = digits.chunks(4).flat_map(|four| {
+        let number = (0..4).fold(0, |number, nth| number << 6 | four.get(nth).unwrap_or(&0));
+        let bytes = number.to_be_bytes();
+        bytes[1..four.len()].to_vec()
+    });
+    whole.collect()
 }
 
 impl Drop for Browser {

@@ -42,6 +42,20 @@ impl<'a> Operated<'a> {
         }
     }
 
+    /// A machine that is shipped (`lathe`), with drives that answer, and `tables` behind it.
+    #[must_use]
+    pub fn shipped(instance: &'a Instance, name: &str, tables: &str) -> Self {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../config");
+        let text = std::fs::read_to_string(format!("{folder}/{name}.toml")).unwrap();
+        let drives = "[feedback]\nsource = \"drives\"\nfollowing_error = 50.0\nmin_following_error = 50.0\n\
+                      stale_s = 0.6\noff_s = 1.0\n";
+        let text = format!("{text}\n{drives}{tables}");
+        Self {
+            instance,
+            config: instance.file("machine.toml", &text),
+        }
+    }
+
     /// The path of the configuration.
     #[must_use]
     pub fn config(&self) -> &str {

@@ -104,6 +104,7 @@ pub fn machine_object(config: &MachineConfig, instance: &str) -> Value {
         "following_error_mm": config.feedback.following_error,
         "horizon_s": config.interpolator.horizon_t,
         "max_missed_ticks": config.interpolator.max_missed_ticks,
+        "spindle_override": config.spindle_override,
     })
 }
 

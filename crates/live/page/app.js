@@ -131,11 +131,15 @@ function paintUnits() {
   $$('[data-unit=feed]').forEach(e => put(e, feedUnit()));
   $$('[data-do=unit]').forEach(b => { put(b, lengthUnit()); b.title = UNIT.inch ? 'show lengths in mm' : 'show lengths in inches'; b.setAttribute('aria-label', `lengths are in ${UNIT.inch ? 'inches' : 'mm'}: ${b.title}`); });
 }
+const SHOWN_ON_PHONES = 6;
 function layDigits() {
   const axes = AXES();
   $('#app').dataset.axes = axes.length > 6 ? 'many' : axes.length > 4 ? 'some' : axes.length > 3 ? 'four' : 'few';
   fill($('#dro'), `<div class="top"><b id="system"></b><span><span id="dro-of"></span>${unitKey()}</span><span id="dro-machine"></span></div>` + axes.map(a => `<div class="ax"><b>${axisName(a)}</b><div class="w n" id="w${a.name}"></div><div class="m"><div class="n" id="m${a.name}"></div><div class="travel" title="between the ends of its travel"><i id="t${a.name}"></i></div></div></div>`).join(''));
-  fill($('#g-axes'), axes.slice(0, 3).map(a => `<div><span class="lab">${nameOf(a.name)}</span><span class="n" id="g${a.name}"></span></div>`).join(''));
+  // A telephone has room for six, in rows of two or three.
+  const shown = axes.slice(0, SHOWN_ON_PHONES), columns = [2, 4].includes(shown.length) ? 2 : Math.min(3, shown.length);
+  $('#g-axes').className = `g-row live of-${columns}${shown.length > 3 ? ' more-axes' : ''}`;
+  fill($('#g-axes'), shown.map(a => `<div><span class="lab">${nameOf(a.name)}</span><span class="n" id="g${a.name}"></span></div>`).join('') + '<div></div>'.repeat((columns - shown.length % columns) % columns));
 }
 function setView(view) {
   // Who operates sees all of the path, whatever somebody looked at before.
@@ -259,25 +263,25 @@ function digits() {
     const rail = $(`#t${axis.name}`);
     rail.parentElement.hidden = !axis.travel;
     if (axis.travel) rail.style.left = `${Math.max(0, Math.min(100, (machine[k] - axis.travel[0]) / (axis.travel[1] - axis.travel[0]) * 100)).toFixed(2)}%`;
-    if (k < 3) put($(`#g${axis.name}`), place(axis, shown[k], 1));
+    if (k < SHOWN_ON_PHONES) put($(`#g${axis.name}`), place(axis, shown[k], 1));
   });
   feedDigits(speed * 60, moving);
   if (s.mode === 'backwards') put($('#feedof'), moving ? 'back along the path' : 'backwards');
-  for (const [key, ratio] of [['feed-override', s.feed_override], ['rapid-override', s.rapid_override]]) {
+  for (const [key, ratio] of [['feed-override', s.feed_override], ['rapid-override', s.rapid_override], ['spindle-override', isLocked() ? 1 : s.spindle_override]]) {
     const tile = $(`[data-ov=${key}]`);
     fill($('[data-v]', tile), `${Math.round(ratio * 100)}<span class="unit">%</span>`);
     $('.bar i', tile).style.width = `${Math.min(100, Math.abs(ratio) * 50)}%`; $('.bar u', tile).style.left = '50%';
   }
-  put($('#spin'), s.spindle && s.spindle.turns !== 'off' ? grouped(s.spindle.speed) : s.spindle ? '0' : '–'); put($('#spinof'), s.spindle ? s.spindle.turns + (s.spindle_load === null || s.spindle_load === undefined ? '' : `, load ${Math.round(s.spindle_load * 100)} %`) + (s.spindle.speed !== s.spindle.programmed ? `, S${grouped(s.spindle.programmed)}` : '') + (s.spindle.coolant ? `, ${s.spindle.coolant}` : '') : 'not known here');
+  spindleDigits();
   // While a tool is asked for, the one that is told is not in the spindle yet.
   const asked = s.asked && s.asked.tools, now = asked ? asked.before && asked.before.number : s.tool;
   put($('#tool'), now ? `T${now}` : '–'); put($('#toolof'), asked ? `T${asked.wanted ? asked.wanted.number : 0} is wanted` : now ? 'told to be in' : 'none told');
   // Of a program that is over nothing is left.
-  const known = s.left_s !== null && s.left_s !== undefined && s.end_of_epoch === 'open', ends = known && S.state === 'running' ? clock(Date.now() + s.left_s * 1000) : null;
-  put($('#left'), S.state === 'stale' || !known ? '–:––.–' : span(s.left_s)); put($('#g-left'), $('#left').textContent);
-  put($('#ends'), S.state === 'stale' ? 'not known' : ends ? `ends ${ends}` : known ? 'after resume' : ''); put($('#g-end'), ends || '––:––:––');
+  const left = secondsTo(), known = left !== null, ends = known && S.state === 'running' ? clock(Date.now() + left * 1000) : null;
+  put($('#left'), S.state === 'stale' || !known ? '–:––.–' : span(left)); put($('#g-left'), $('#left').textContent);
+  put($('#ends'), S.state === 'stale' ? 'not known' : ends ? `ends ${ends}` : known ? 'when it goes on' : ''); put($('#g-end'), ends || '––:––:––');
   paintNeeds();
-  put($('#g-line'), String(s.line)); put($('#g-ov'), `${Math.round(s.feed_override * 100)} %`); put($('#g-feed'), feedText(speed * 60));
+  put($('#g-line'), String(s.line)); put($('#g-ov'), `at ${Math.round(s.feed_override * 100)} %`); put($('#g-feed'), feedText(speed * 60));
   paintWhy();
   blocks(s.line);
 }

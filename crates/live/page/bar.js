@@ -30,11 +30,14 @@ function layDeeds() {
   DEEDS.cannot = b => { const reason = $('#attn [name=why]:checked'); order('acknowledge', { ...JSON.parse(b.dataset.event), fail: reason ? reason.value : 'it cannot be done' }); };
   DEEDS['show-reasons'] = b => { S.reasons = S.reasons === b.dataset.event ? '' : b.dataset.event; paintState(); };
 }
+/* Which override of 0 % it rests at, as the machine says; nothing if at none. */
+const noOverride = s => { const at = / an? (feed|rapid) override of 0 %/.exec(s.state_text || ''); return at ? `${at[1]} is at 0 %` : / overrides of 0 %/.test(s.state_text || '') ? 'all is at 0 %' : ''; };
 /* Why nothing goes on; nothing if it can. */
 function whyNoGo(s) {
   if (S.state === 'awaiting') return s.asked ? 'answer first' : 'the machine is busy';
   if (S.state === 'faulted') return 'reset first';
   if (isAway(s) && ['held', 'program-stop'].includes(S.state)) return 'return first';
+  if (S.state === 'held' && noOverride(s)) return noOverride(s);
   if (['held', 'program-stop'].includes(S.state)) return '';
   if (S.state === 'preparing' && s.job && s.job.begins_held) return '';
   if (S.state === 'stale') return 'state not known';
@@ -48,7 +51,7 @@ function paintBar() {
   setKey(BAR.abort, `${icon('abort')}Abort`, { press: LONG, why: may('hold') ? moves || isUnknown ? '' : 'nothing runs' : `this page may only ${S.may}`, sub: 'press 1 s' });
   // Beside these keys stands who operates, which needs the room.
   const barred = not && 'not here', why = barred || whyNoGo(s), single = s.single_block;
-  setKey(BAR.go, `${icon('running')}${single && S.state === 'program-stop' && !(s.asked && s.asked.says) ? 'Next block' : s.mode === 'backwards' ? 'Forward' : 'Resume'}`, { press: SHORT, why, sub: 'press ½ s', kind: why ? '' : 'main' });
+  setKey(BAR.go, `${icon('running')}${isBlockEnd(s) ? 'Next block' : s.mode === 'backwards' ? 'Forward' : 'Resume'}`, { press: SHORT, why, sub: 'press ½ s', kind: why ? '' : 'main' });
   setKey(BAR.single, `${icon('step')}Single`, { why: barred, sub: single ? 'block: on' : 'block: off', kind: single ? 'on' : '' });
   paintWho();
 }
@@ -62,7 +65,8 @@ function paintWho() {
   else if (S.may === 'operate') html = '<span><b>You operate.</b><br>Not for emergencies.</span>';
   else if (S.may === 'hold') html = '<span><b>Hold and abort.</b><br>Not for emergencies.</span>';
   else html = `<span class="big">${icon('lock')}</span><span>This page<br>only looks.</span>`;
-  $('#app').dataset.says = S.refusal || S.asked_for ? 1 : 0;
+  // What takes more room gets that of the tabs.
+  $('#app').dataset.says = S.refusal.length > 60 ? 2 : S.refusal || S.asked_for ? 1 : 0;
   fill($('#mode'), html);
 }
 /* The panel in place of the text: what a person has to do, with the buttons for it. */
@@ -103,10 +107,11 @@ function paintWay() {
 /* ---- overrides, in steps of 5 % */
 function layOverrides() {
   $$('.ov').forEach(tile => {
-    const kind = tile.dataset.ov, most = kind === 'rapid-override' ? 1 : 2, [less, full, more] = $$('button', tile);
+    const kind = tile.dataset.ov, [less, full, more] = $$('button', tile);
+    const range = () => kind === 'rapid-override' ? [0, 1] : kind === 'spindle-override' ? INFO.machine.spindle_override || [0, 2] : [0, 2];
     // What was asked for and is not told yet is counted on, so that of two quick presses none is lost; orders go one behind the other.
     let wanted = 0, until = 0, last = Promise.resolve();
-    const now = () => performance.now() < until ? wanted : S.status ? S.status[kind.replace('-', '_')] : 1;
+    const now = () => performance.now() < until ? wanted : S.status ? S.status[kind.replaceAll('-', '_')] : 1;
     const ask = value => {
       const given = { value, heard_ms: S.clock_ms };
       wanted = value; until = performance.now() + 500;
@@ -114,17 +119,21 @@ function layOverrides() {
     };
     // Whichever way the motion goes, more is faster.
     const way = () => now() < 0 || Object.is(now(), -0) ? -1 : 1;
-    const step = d => ask(way() * Math.max(0, Math.min(most, Math.round((Math.abs(now()) + d) * 20) / 20)));
+    const step = d => { const [least, most] = range(); ask(way() * Math.max(least, Math.min(most, Math.round((Math.abs(now()) + d) * 20) / 20))); };
     less.innerHTML = '−5'; more.innerHTML = '+5';
     less.dataset.do = `${kind}-less`; more.dataset.do = `${kind}-more`; full.dataset.do = `${kind}-full`;
     DEEDS[`${kind}-less`] = () => step(-0.05); DEEDS[`${kind}-more`] = () => step(0.05); DEEDS[`${kind}-full`] = () => ask(way());
   });
 }
+/* Overrides that a program keeps to itself cannot be pressed. */
+function paintOverrides() {
+  $$('.ov [data-do]').forEach(b => { if (notOperating() || (isLocked() && b.dataset.do.startsWith('spindle'))) b.setAttribute('aria-disabled', 'true'); else b.removeAttribute('aria-disabled'); });
+}
 /* All that depends on who may what. */
 function paintHands() {
   const app = $('#app');
   app.dataset.may = S.may; app.dataset.operates = S.operates ? 1 : 0;
-  $$('.ov [data-do]').forEach(b => { if (notOperating()) b.setAttribute('aria-disabled', 'true'); else b.removeAttribute('aria-disabled'); });
+  paintOverrides();
   fill($('#g-foot'), S.may === 'look' ? `${icon('lock')}<span>This page only looks; it sends no commands.</span>${unitKey()}` : `<span>Not for emergencies.</span>${unitKey()}`);
   paintUnits();
   paintBar(); paintSetUp(); paintPrograms();

@@ -34,14 +34,22 @@ function inWords(seconds) {
   if (s < 60) return `${s} s`;
   return s < 3600 ? `${Math.floor(s / 60)} min ${s % 60} s` : `${Math.floor(s / 3600)} h ${Math.floor(s / 60) % 60} min`;
 }
-/* What is needed next, and when: as the time left, by the override in force. */
+/* Seconds to a place of the plan, its end unless one is given, by the overrides in force; `null` where nobody knows. The server
+   tells the whole as if all of it obeyed the feed override: rapids obey their own. */
+function secondsTo(place) {
+  const s = S.status, ahead = PLAN && S.shows && s.place !== null ? PLAN.samples - 1 - S.p : 0;
+  if (s.left_s === null || s.left_s === undefined || s.end_of_epoch !== 'open') return null;
+  if (ahead <= 0) return place === undefined ? s.left_s : null;
+  const to = place === undefined ? PLAN.samples - 1 : Math.max(S.p, place), rapids = PLAN.rapids(S.p, to);
+  if (rapids > 0 && !s.rapid_override) return null;
+  return s.left_s / ahead * (to - S.p - rapids + (rapids > 0 ? rapids * s.feed_override / s.rapid_override : 0));
+}
+/* What is needed next, and when. */
 function needsWords() {
   const s = S.status;
   if (!PLAN || !s || S.state === 'stale' || !S.shows || s.end_of_epoch !== 'open' || s.place === null) return '';
-  const next = nextMoment(S.p), whole = PLAN.samples - 1 - S.p;
-  if (!next) return '';
-  const known = s.left_s !== null && s.left_s !== undefined && whole > 0;
-  return known ? `${next.what} in ${inWords(s.left_s * Math.max(0, next.place - S.p) / whole)}` : next.what;
+  const next = nextMoment(S.p), seconds = next && secondsTo(next.place);
+  return !next ? '' : seconds === null ? next.what : `${next.what} in ${inWords(seconds)}`;
 }
 function paintNeeds() {
   const words = needsWords();

@@ -10,7 +10,9 @@ function histogram() {
   const most = Math.max(1, ...counts), X = us => left + Math.max(0, Math.min(1, (Math.log10(Math.max(us, low)) - x0) / (x1 - x0))) * (w - left - 14);
   const decades = Math.ceil(Math.log10(most) + 0.05), Y = n => h - bottom - (n <= 0 ? 0 : (Math.log10(n) + 0.35) / (decades + 0.35)) * (h - bottom - top);
   c.font = '12px B612'; c.textBaseline = 'middle'; c.lineWidth = 1;
-  for (let n = 1; n <= 10 ** decades; n *= 10) { const y = Math.round(Y(n)) + 0.5; c.strokeStyle = T.css.faint; c.beginPath(); c.moveTo(left, y); c.lineTo(w - 14, y); c.stroke(); c.fillStyle = T.css.quiet; c.textAlign = 'right'; c.fillText(grouped(n), left - 8, y); }
+  // Where the decades are nearer to each other than their numbers are high, every second one is told, or every third.
+  const every = Math.ceil(14 / Math.max(1, Y(1) - Y(10)));
+  for (let n = 1, k = 0; n <= 10 ** decades; n *= 10, k++) { const y = Math.round(Y(n)) + 0.5; c.strokeStyle = T.css.faint; c.beginPath(); c.moveTo(left, y); c.lineTo(w - 14, y); c.stroke(); if (k % every) continue; c.fillStyle = T.css.quiet; c.textAlign = 'right'; c.fillText(grouped(n), left - 8, y); }
   c.fillStyle = T.css.faint; c.fillRect(X(period), top, w - 14 - X(period), h - bottom - top);
   counts.forEach((n, k) => {
     if (!n) return;
@@ -20,7 +22,7 @@ function histogram() {
   c.globalAlpha = 1; c.fillStyle = T.css.line; c.fillRect(left, h - bottom, w - left - 14, 1);
   c.fillStyle = T.css.quiet; c.textAlign = 'center';
   for (let us = 10 ** Math.ceil(x0 - 1e-9); us < 10 ** x1; us *= 10) c.fillText(us >= 1000 ? `${us / 1000} ms` : `${us >= 1 ? us : us.toFixed(1)} µs`, Math.max(left + 14, X(us)), h - bottom + 12);
-  c.fillStyle = T.css.ink; c.fillRect(X(period) - 1, top - 20, 2, h - bottom - top + 20); c.textAlign = 'right'; c.fillText(`period ${micro(period).replace('.0', '')}`, X(period) - 7, top - 10);
+  c.fillStyle = T.css.ink; c.fillRect(X(period) - 1, top - 20, 2, h - bottom - top + 20);
   let right = -99;
   for (const [name, us] of [['half', q.p50], ['99 %', q.p99], ['99.9 %', q.p999]]) {
     const x = X(us);
@@ -28,6 +30,10 @@ function histogram() {
     const wide = c.measureText(name).width, at = Math.max(x, right + wide / 2 + 8);
     c.fillStyle = T.css.ink; c.textAlign = 'center'; c.fillText(name, at, top - 28); right = at + wide / 2;
   }
+  // Not struck through by a line.
+  const limit = `period ${micro(period).replace('.0', '')}`, wide = c.measureText(limit).width;
+  c.fillStyle = T.css.panel; c.fillRect(X(period) - 9 - wide, top - 18, wide + 4, 16);
+  c.fillStyle = T.css.ink; c.textAlign = 'right'; c.fillText(limit, X(period) - 7, top - 10);
   c.fillStyle = T.css.quiet; c.textAlign = 'left'; c.fillText('how late a tick began; both axes logarithmic', left, h - 10);
 }
 
@@ -73,6 +79,8 @@ function health() {
   healthWords();
 }
 
+/* Drives that are to say where they are have not, for half a second, so that nobody knows. */
+const drivesAreSilent = () => { const s = S.status; return s.power !== 'simulated' && (s.feedback_age_ms === null || s.feedback_age_ms > 500); };
 function healthWords() {
   const s = S.status, say = (kind, text) => `${icon(kind, kind)}<span>${text}</span>`;
   fill($('#a-tick'), s.missed_ticks ? say('warn', `No: ${grouped(s.missed_ticks)} of ${grouped(s.ticks)} missed. At ${INFO.machine.max_missed_ticks} within a second the machine stops.`)
@@ -81,7 +89,7 @@ function healthWords() {
   fill($('#a-buf'), s.state === 'starved' || s.state === 'starving' ? say('bad', 'No. The planner is too slow, or sends nothing.')
     : moving ? say('ok', `Yes, ${num(ahead, 2)} s.${s.starved_ticks ? ` It had to wait for ${grouped(s.starved_ticks)} ticks so far.` : ''}`) : say('dot', `No motion is under way; ${num(ahead, 2)} s lie ready.`));
   const peak = Math.max(0, ...Object.values(s.following_error || {}).map(v => Math.abs(v || 0))) * 1000;
-  fill($('#a-fol'), s.power === 'simulated' ? say('dot', 'Nobody says: no feedback is configured.') : say('ok', `Within ${num(peak, 1)} µm just now.`));
+  fill($('#a-fol'), s.power === 'simulated' ? say('dot', 'Nobody says: no feedback is configured.') : drivesAreSilent() ? say('bad', `Not known: the drives have said nothing${s.feedback_age_ms === null ? ' yet' : ` for ${num(s.feedback_age_ms / 1000, 1)} s`}.`) : say('ok', `Within ${num(peak, 1)} µm just now.`));
   const list = s.receivers || [];
   fill($('#a-sub'), list.length > 1 ? say('ok', `${list.length} programs, this page among them.`) : say('warn', 'Only this page: no servo stack is connected.'));
   fill($('#subs'), '<tr><th>program</th><th>process</th><th class="l">what it does</th></tr>' + list.map(r => `<tr><td>${safe(r.name)}</td><td class="n">${r.pid}</td><td class="l">${safe(r.role)}</td></tr>`).join(''));
@@ -95,6 +103,6 @@ function healthWords() {
 
 function eventLog() {
   const list = S.status ? S.status.log || [] : [], kinds = { state: 'running', warn: 'warn', bad: 'fault', info: 'dot' };
-  fill($('#log'), list.map(e => `<div class="${e.kind === 'bad' ? 'hot' : ''}"><span class="n">${clock(e.at_ms, true)}</span><span>${icon(kinds[e.kind] || 'dot', e.kind === 'bad' ? 'bad' : e.kind === 'warn' ? 'warn' : '')}</span><span>${safe(e.text)}${e.since_ms ? `, since ${clock(e.since_ms)}` : ''}</span></div>`).join(''));
-  fill($('#g-log'), list.slice(0, 5).map(e => `<div><span class="n lab">${clock(e.at_ms).slice(0, 5)}</span><span>${safe(e.text)}</span></div>`).join(''));
+  fill($('#log'), list.map(e => `<div class="${e.kind === 'bad' ? 'hot' : ''}"><span class="n">${clock(e.at_ms, true)}</span><span>${icon(kinds[e.kind] || 'dot', e.kind === 'bad' ? 'bad' : e.kind === 'warn' ? 'warn' : '')}</span><span>${safe(told(e.text))}${e.since_ms ? `, since ${clock(e.since_ms)}` : ''}</span></div>`).join(''));
+  fill($('#g-log'), list.slice(0, 5).map(e => `<div><span class="n lab">${clock(e.at_ms).slice(0, 5)}</span><span>${safe(told(e.text))}</span></div>`).join(''));
 }

@@ -80,5 +80,7 @@ function drawLastCell(c, k, [name, , kind], { x, y, wide, high }) {
   c.fillText(title, x, y + label / 2 + 1);
   const room = wide - c.measureText(title).width - 8;
   c.textAlign = 'right'; c.font = '12px B612';
-  c.fillText(cutText(c, atFault(k, name), room), x + wide, y + label / 2 + 1);
+  // Where there is no room for its unit and all of its places, it is told without.
+  const whole = atFault(k, name), [number] = whole.split(' '), fits = [whole, number, number.replace(/(\.\d)\d+$/, '$1')].find(text => c.measureText(text).width <= room);
+  c.fillText(fits || cutText(c, number, room), x + wide, y + label / 2 + 1);
 }

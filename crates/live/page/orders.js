@@ -169,4 +169,6 @@ async function startHands() {
 }
 /* The commands of texts, as the buttons of this page. */
 const BUTTONS = { resume: 'Resume', hold: 'Hold', abort: 'Abort', reset: 'Reset', forward: 'Forward', enable: 'Power', home: 'Home', return: 'Return', acknowledge: 'the answer below' };
-const buttonWords = text => S.may === 'operate' ? String(text).replace(/`glidepath ([a-z-]+)[^`]*`/g, (whole, name) => BUTTONS[name] || whole.replaceAll('`', '')) : plain(String(text));
+const OVERRIDES = { '100': 'Feed at 100 %', '--rapid 100': 'Rapid at 100 %', '100 --rapid 100': 'Feed and Rapid at 100 %' };
+const buttonWords = text => S.may !== 'operate' ? plain(String(text)) : String(text).replace(/`glidepath ([a-z-]+) ?([^`]*)`/g, (whole, name, more) =>
+  (name === 'override' ? OVERRIDES[more.replace(/ --(config|instance) .*/, '')] : BUTTONS[name]) || whole.replaceAll('`', ''));

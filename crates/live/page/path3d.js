@@ -185,7 +185,9 @@ class Path3D {
     });
     const length = niceLength(60 / this.scale), px = length * this.scale, y = h - foot - 10;
     c.fillStyle = T.css.quiet; c.fillRect(14, y, px, 1.5); c.fillRect(14, y - 3, 1.5, 7.5); c.fillRect(14 + px - 1.5, y - 3, 1.5, 7.5);
-    c.textAlign = 'left'; c.fillText(lengthWords(length), 14, y - 11);
+    // Not struck through by what is drawn below it.
+    const text = lengthWords(length);
+    c.textAlign = 'left'; c.fillStyle = T.css.panel; c.fillRect(12, y - 19, c.measureText(text).width + 4, 15); c.fillStyle = T.css.quiet; c.fillText(text, 14, y - 11);
   }
   /* How high the legend is. */
   foot() { const legend = this.box.parentElement && $('.legend', this.box.parentElement); return (legend ? legend.offsetHeight : 0) + 16; }

@@ -42,6 +42,12 @@ class Plan {
   }
   /* The bin of a place, in samples. */
   bin(p) { return Math.max(0, Math.min(this.bins - 1, Math.floor(p / this.per))); }
+  /* How many samples of rapids there are from one place to a later one. */
+  rapids(from, to) {
+    if (!this.rapid) { this.rapid = new Float64Array(this.bins + 1); for (let i = 0; i < this.bins; i++) this.rapid[i + 1] = this.rapid[i] + (this.code[i] & 128 ? this.per : 0); }
+    const before = p => { const i = this.bin(p); return this.rapid[i] + (this.code[i] & 128 ? Math.min(this.per, Math.max(0, p - i * this.per)) : 0); };
+    return before(to) - before(from);
+  }
   position(axis, p) { return this.axes[axis] ? this.axes[axis].position[this.bin(p)] : 0; }
   /* The first sample of a line, or the next one that has any. */
   ofLine(line) { for (let i = 0; i < this.bins; i++) if (this.line[i] >= line) return i * this.per; return this.samples - 1; }

@@ -145,13 +145,6 @@ function toolTable() {
   const axes = AXES().map(a => a.name).filter(a => a === 'Z' || SETUP.tools.some(tool => [tool, ...(tool.edges || [])].some(edge => edge.offset[a])));
   return `<table class="edit"><tr><th>tool</th><th class="l">name</th>${axes.map(a => `<th>${a === 'Z' ? 'length Z' : nameOf(a)}</th>`).join('')}<th>Ø</th></tr>${SETUP.tools.map(tool => `<tr class="${S.status && tool.number === S.status.tool ? 'on' : ''}"><td><b>T${tool.number}</b></td><td class="l">${safe(tool.name || '')}</td>${axes.map(a => cell(`T${tool.number}, ${a === 'Z' ? 'length' : a}`, `G10 L1 P${tool.number} ${a}`, tool.offset[a], a)).join('')}${cell(`T${tool.number}, Ø`, `G10 L1 P${tool.number} R`, tool.diameter_mm, 'diameter')}</tr>${(tool.edges || []).map(edge => `<tr><td>D${edge.edge}</td><td></td>${axes.map(a => `<td class="n">${cellText(a, edge.offset[a])}</td>`).join('')}<td class="n">${cellText('diameter', edge.diameter_mm)}</td></tr>`).join('')}`).join('')}</table>${SETUP.keeps ? '' : '<p class="lab-text">Changes last as long as the planner’s service: name a folder, directory of [state].</p>'}`;
 }
-function spindleKeys() {
-  const why = whyNoLine(), s = S.status || {}, told = s.spindle;
-  return `<div class="spindle"><label class="field"><span class="lab">Speed, rev/min</span><input id="speed" inputmode="numeric" value="${told && told.speed ? told.speed : 1000}"></label><div class="row">${key('spindle-cw', 'Clockwise', { press: SHORT, why, sub: 'M3: press ½ s' })}${key('spindle-ccw', 'Counterclockwise', { press: SHORT, why, sub: 'M4: press ½ s' })}${key('line', 'Stop', { why, sub: 'M5', data: 'data-line="M5"' })}</div><div class="row">${key('line', 'Mist', { press: SHORT, why, sub: 'M7: press ½ s', data: 'data-line="M7"' })}${key('line', 'Flood', { press: SHORT, why, sub: 'M8: press ½ s', data: 'data-line="M8"' })}${key('line', 'Coolant off', { why, sub: 'M9', data: 'data-line="M9"' })}</div></div>`;
-}
-const turn = code => { const speed = numberOf($('#speed').value); if (speed > 0) own(`S${speed} ${code}`, [`S${speed} ${code}`]); else $('#speed').focus(); };
-DEEDS['spindle-cw'] = () => turn('M3');
-DEEDS['spindle-ccw'] = () => turn('M4');
 DEEDS.line = b => own(b.dataset.line, [b.dataset.line]);
 DEEDS.use = DEEDS.line;
 DEEDS.edit = b => {

@@ -18,9 +18,11 @@ function wordsNow() {
   // The same state, where it concerns a person otherwise.
   if (S.state === 'running' && s.mode === 'backwards') return ['back', `${word}, backwards`, 1, 'held'];
   if (S.state === 'awaiting' && !s.asked) return ['stale', word, 0, 'idle'];
-  if (S.state === 'program-stop' && s.single_block && !(s.asked && s.asked.says)) return ['step', word, 1, 'held'];
+  if (isBlockEnd(s)) return ['step', word, 1, 'held'];
   return [sign, word, level, colour];
 }
+/* It rests because of single block, and not for a person. */
+const isBlockEnd = s => S.state === 'program-stop' && s.single_block && !(s.asked && s.asked.says);
 const isAway = s => Object.values(s.away || {}).some(x => Math.abs(x) > 1e-9);
 const line = status => status.line ? `line ${status.line}${status.program_is_shown && S.shows && INFO.program && INFO.program.lines ? ` of ${grouped(INFO.program.lines)}` : ''}` : 'before its first line';
 /* What the machine executes, or has executed last, whoever began it. */
@@ -44,6 +46,7 @@ function cause() {
   if (S.state === 'awaiting' && s.awaited) return `${program}${line(s)}: ${s.awaited.event} of line ${s.awaited.line} is awaited, for ${span(s.awaited.waited_s)}.`;
   // Where its panel is, the words of the program stand there.
   if (S.state === 'program-stop' && saysNow()) return `${program}${line(s)}: ${S.view === 'operate' ? S.may === 'operate' ? 'Resume goes on' : 'it waits to be resumed' : `“${saysNow()}”`}.`;
+  if (isBlockEnd(s)) return `${program}${line(s)}: at rest at the end of a block, for single block${S.may === 'operate' ? '; Next block goes on' : ''}.`;
   if (S.state === 'held' && s.mode === 'backwards' && S.may === 'operate' && !isAway(s)) return `${program}${line(s)}: held at rest on the way back. Forward goes on to the end.`;
   // In these nothing of a program is under way.
   const alone = ['idle', 'preparing', 'off', 'not-homed', 'homing', 'jogging'].includes(S.state);
@@ -101,7 +104,7 @@ function attention() {
     const title = s.asked ? sentence(askedWords(s)) : `${sentence(s.awaited.event)} of line ${s.awaited.line} is awaited.`;
     return `<h2>${safe(title)}</h2>${exchange(s.asked)}${says}${s.asked ? steps([`When that is done: ${s.awaited.done_by}`, `If it cannot be done: ${s.awaited.failed_by}`]) : ''}`;
   }
-  if (S.state === 'program-stop' && !(s.single_block && !(s.asked && s.asked.says))) {
+  if (S.state === 'program-stop' && !isBlockEnd(s)) {
     const says = saysNow();
     return `<h2>The program stopped at ${line(s)}.</h2>${says ? `<p class="says">${safe(says)}</p>` : ''}${steps(['Do what the program stopped for.', 'Press Resume, here or at the machine.'])}`;
   }

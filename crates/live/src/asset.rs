@@ -26,7 +26,7 @@ const SHOWING: [(&str, &str); 12] = [
 ];
 
 /// What operates a machine, behind that.
-const HANDS: [(&str, &str); 15] = [
+const HANDS: [(&str, &str); 16] = [
     ("/orders.js", include_str!("../page/orders.js")),
     ("/bar.js", include_str!("../page/bar.js")),
     ("/bell.js", include_str!("../page/bell.js")),
@@ -34,6 +34,7 @@ const HANDS: [(&str, &str); 15] = [
     ("/gamepad.js", include_str!("../page/gamepad.js")),
     ("/judged.js", include_str!("../page/judged.js")),
     ("/setup.js", include_str!("../page/setup.js")),
+    ("/spindle.js", include_str!("../page/spindle.js")),
     ("/touch.js", include_str!("../page/touch.js")),
     ("/devices.js", include_str!("../page/devices.js")),
     ("/machines.js", include_str!("../page/machines.js")),

@@ -198,6 +198,11 @@ impl Plant {
         }
     }
 
+    /// The spindle turns at so many times the speed that programs tell it: the override of the auxiliary record.
+    pub const fn override_spindle(&mut self, ratio: f64) {
+        self.spindle.ratio = ratio;
+    }
+
     /// Goes on to a time, ns of the clock by which feedback is stamped. `setpoint` is the last one
     /// that arrived, `demand` what the servo library makes of it.
     #[allow(
@@ -349,6 +354,7 @@ impl Plant {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glidepath_link::SpindleFlags;
 
     /// The plant with its spindle at speed, told by a setpoint that applies at a time.
     fn turning(apply_ns: u64) -> (Plant, Setpoint) {
@@ -389,6 +395,19 @@ mod tests {
             plant.spindle().1.abs() < 1e-9,
             "another life has not told it to turn"
         );
+    }
+
+    #[test]
+    fn a_spindle_turns_at_its_override() {
+        let begin_ns = 5_000_000_000;
+        let (mut plant, setpoint) = turning(begin_ns);
+        plant.override_spindle(0.8);
+        for ms in 300..400 {
+            plant.step(begin_ns + ms * 1_000_000, Some(&setpoint), None);
+        }
+        assert!((plant.spindle().1 - 8.0).abs() < 1e-9);
+        let flags = SpindleFlags(plant.feedback().unwrap().spindle_flags);
+        assert!(flags.contains(SpindleFlags::AT_SPEED));
     }
 
     #[test]

@@ -48,6 +48,8 @@ pub(crate) struct Spindle {
     asked: f64,
     /// 1 for M3, −1 for M4, 0 for M5, M6 and M19.
     direction: f64,
+    /// What the operator makes of its speed.
+    pub(crate) ratio: f64,
     /// The angle for the next M19, revolutions, and the one that it is to stand at.
     next_angle: f64,
     held_angle: Option<f64>,
@@ -75,6 +77,7 @@ impl Spindle {
             settings,
             asked: 0.0,
             direction: 0.0,
+            ratio: 1.0,
             next_angle: 0.0,
             held_angle: None,
             speed: 0.0,
@@ -112,7 +115,7 @@ impl Spindle {
             counts,
             ..
         } = self.settings;
-        let wanted = self.asked * self.direction * self.part;
+        let wanted = self.told() * self.part;
         let away = if self.is_stuck {
             -self.speed
         } else if lag_t > 0.0 {
@@ -147,14 +150,18 @@ impl Spindle {
         }
     }
 
+    /// The speed that it is told to turn at, rev/s, below 0 for M4.
+    fn told(&self) -> f64 {
+        self.asked * self.ratio * self.direction
+    }
+
     /// What the encoder says.
     pub(crate) const fn counted(&self) -> f64 {
         self.counted
     }
 
     pub(crate) fn flags(&self) -> SpindleFlags {
-        let asked = self.asked * self.direction;
-        let wanted = asked * self.part;
+        let wanted = self.told() * self.part;
         let is_near = (self.speed - wanted).abs() < NEAR.max(NEAR_PART * wanted.abs());
         let flag = |is: bool, flag: SpindleFlags| if is { flag.0 } else { 0 };
         let is_oriented = self.held_angle.is_some_and(|angle| {

@@ -42,6 +42,8 @@ fn programs_resets_and_senders_leave_nothing_on_and_lose_nothing_that_was_answer
     sender.send(b"$#\n");
     sender.wait_for("[G92:0.000,0.000,0.000]");
     waits_for_accessories(&mut sender, "");
+    // A reset at rest locks nothing.
+    sender.wait_for_state("Idle");
     // What was answered is stored.
     assert_eq!(sender.answers(&["G10 L20 P1 X5"]), ["ok"]);
     sender.send(b"\x18$#\n");

@@ -1,16 +1,18 @@
-//! The test of a finger whose page cannot be heard any more: no network, a browser that stands still, a browser that is killed.
+//! Tests of a finger whose page cannot be heard any more: no network, a network that carries nothing and keeps its
+//! connections, a browser that stands still, a browser that is killed.
 
 use std::time::{Duration, Instant};
 
 use glidepath_link::MachineState;
-use glidepath_tests::{Browser, Instance, Services, Watchdog};
+use glidepath_tests::{Browser, Instance, Process, Services, Watchdog};
 use rustix::process::Signal;
 use serde_json::json;
 
-use super::PATIENCE;
 use super::hands::{rests, x};
 use super::life::HALF;
 use super::operated_page::operated_page;
+use super::proxy::Proxy;
+use super::{Live, PATIENCE};
 
 const KEY: &str = ".jog[aria-label=\"move X+\"]";
 /// The way behind which the finger is taken to move the axis, mm.
@@ -74,6 +76,38 @@ fn an_axis_rests_when_its_page_cannot_be_heard() {
     let _place = moving(&mut browser, &services);
     browser.signal(Signal::KILL);
     let _rest = rests(&services);
+    drop((live, service));
+    drop(services.end());
+}
+
+#[test]
+fn an_axis_rests_when_the_network_carries_nothing_and_what_it_kept_moves_nothing() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let services = Services::start(&instance);
+    let service = Process::service(&instance);
+    let live = Live::start(&instance, &["--may", "operate"]);
+    let network = Proxy::to(live.port);
+    let way = format!(
+        "--host-resolver-rules=MAP localhost:{} 127.0.0.1:{}",
+        live.port, network.port
+    );
+    let Some(mut browser) = Browser::start_with((1024, 768), &[&way]) else {
+        return;
+    };
+    browser.open(&live.url.replace("127.0.0.1", "localhost"));
+    browser.wait("typeof S !== 'undefined' && S.operates && S.state === 'idle' && SETUP.jog");
+    browser.evaluate("setView('setup')");
+    browser.wait("document.querySelector('.jog:not([aria-disabled])')");
+    let place = moving(&mut browser, &services);
+    network.stop();
+    let there = x(&rests(&services));
+    // The finger is still down, and the page goes on to say so, to nobody.
+    browser.wait("S.state === 'stale'");
+    network.go_on();
+    std::thread::sleep(Duration::from_millis(800));
+    assert_eq!(x(&rests(&services)).to_bits(), there.to_bits());
+    browser.finger_up(&place);
+    browser.wait("S.state === 'idle' && document.querySelector('.jog:not([aria-disabled])')");
     drop((live, service));
     drop(services.end());
 }

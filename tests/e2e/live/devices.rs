@@ -447,12 +447,12 @@ fn a_browser_is_paired_by_the_address_in_the_picture() {
     panel.evaluate("setView('setup')");
     panel.press("[data-do=table-devices]");
     panel.wait("document.querySelector('[data-do=pair-device]:not([aria-disabled])')");
-    picture(&mut panel, "devices-none");
+    panel.picture("devices-none");
     panel.press("[data-do=pair-device]");
     panel.wait("document.querySelector('.qr path') && DEVICES.known.offer.code");
     for name in ["light", "dark"] {
         panel.evaluate(&format!("theme('{name}')"));
-        picture(&mut panel, &format!("devices-code-{name}"));
+        panel.picture(&format!("devices-code-{name}"));
     }
     // It is shown for longer than a page that is silent has it.
     std::thread::sleep(Duration::from_secs(6));
@@ -471,15 +471,15 @@ fn a_browser_is_paired_by_the_address_in_the_picture() {
         "",
         "the code has left the address"
     );
-    picture(&mut phone, "devices-pairing");
+    phone.picture("devices-pairing");
     phone.evaluate("document.querySelector('#pairing-name').value = 'Phone'");
     phone.press("#pairing button");
     phone.wait("typeof S !== 'undefined' && S.may === 'hold' && S.state === 'running'");
     assert_eq!(phone.evaluate("S.view"), "glance");
-    picture(&mut phone, "devices-glance");
+    phone.picture("devices-glance");
     panel.wait("DEVICES.said === 'Phone is paired: it may hold and abort.'");
     panel.wait("DEVICES.known.devices[0].here");
-    picture(&mut panel, "devices-paired");
+    panel.picture("devices-paired");
     phone.press("[data-c=hold]");
     let _held = services.wait_for(MachineState::Held);
     phone.wait("S.state === 'held'");
@@ -496,20 +496,8 @@ fn a_browser_is_paired_by_the_address_in_the_picture() {
     panel.wait("DEVICES.known.devices.length === 0");
     phone
         .wait("document.querySelector('#pairing-code') && S.state === 'stale' && S.may === 'look'");
-    picture(&mut phone, "devices-revoked");
+    phone.picture("devices-revoked");
     drop(live);
     drop(planner);
     drop(services.end());
-}
-
-/// Keeps a picture of a page, where the environment names a folder for it.
-fn picture(browser: &mut Browser, name: &str) {
-    let Some(folder) = std::env::var_os("GLIDEPATH_PICTURES") else {
-        return;
-    };
-    std::thread::sleep(Duration::from_millis(400));
-    let taken = browser.call("Page.captureScreenshot", &json!({ "format": "png" }));
-    let data = taken["data"].as_str().unwrap();
-    let file = std::path::Path::new(&folder).join(format!("{name}.b64"));
-    std::fs::write(file, data).unwrap();
 }

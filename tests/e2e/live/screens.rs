@@ -46,6 +46,25 @@ pub(super) const CUT: &str = "(() => { \
            if (isCut || !e || scrolls(e, 'X') || scrolls(e, 'Y')) break; } } } \
      return [...found].join('; '); })()";
 
+/// Texts that lie over others: of what can be seen of each, a third of its height and a px each way does not count.
+pub(super) const OVERLAPS: &str = "(() => { \
+     const range = document.createRange(), walk = document.createTreeWalker($('#app'), NodeFilter.SHOW_TEXT), all = []; \
+     for (let node; (node = walk.nextNode());) { const of = node.parentElement; \
+       if (!node.textContent.trim() || !of.checkVisibility({ visibilityProperty: true, opacityProperty: true })) continue; \
+       range.selectNodeContents(node); \
+       for (const r of range.getClientRects()) { let [left, top, right, bottom] = [r.left + 1, r.top + r.height / 3, r.right - 1, r.bottom - r.height / 3]; \
+         for (let e = of; e; e = e.parentElement) { if (getComputedStyle(e).overflow === 'visible') continue; const c = e.getBoundingClientRect(); \
+           left = Math.max(left, c.left); right = Math.min(right, c.right); top = Math.max(top, c.top); bottom = Math.min(bottom, c.bottom); } \
+         if (right > left && bottom > top) all.push({ left, top, right, bottom, node, text: node.textContent.trim() }); } } \
+     const found = new Set(); \
+     all.forEach((a, k) => { for (const b of all.slice(k + 1)) if (a.node !== b.node && a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom) found.add(`${a.text} | ${b.text}`); }); \
+     return [...found].join('; '); })()";
+
+/// What is wider than its place and can be scrolled sideways, or is wider than the screen. Places of programs are scrolled to.
+pub(super) const SIDEWAYS: &str = "[document.scrollingElement, ...document.querySelectorAll('#app, #app *')].filter(e => \
+     e.scrollWidth > e.clientWidth + 1 && !e.closest('.finding pre, #judged pre') && (e === document.scrollingElement || /auto|scroll/.test(getComputedStyle(e).overflowX)) \
+     && e.checkVisibility({ visibilityProperty: true })).map(e => e.id || e.className || e.tagName).join('; ')";
+
 pub(super) fn resize(browser: &mut Browser, (width, height): (u32, u32)) {
     let size = json!({
         "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false,

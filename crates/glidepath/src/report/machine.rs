@@ -169,16 +169,21 @@ pub(super) fn awaited_text(status: &Status, asked: &AwaitedEvent) -> Option<Stri
     })
 }
 
+/// Whether it is known of the spindle: what drives said that are silent now is not.
+fn is_known(status: &Status, flag: SpindleFlags) -> bool {
+    status.spindle().contains(flag) && !status.drives_are_silent()
+}
+
 /// Speed of the spindle, rev/min; nothing where nobody measures it.
 fn spindle_rpm(status: &Status) -> Option<f64> {
-    let is_measured = status.spindle().contains(SpindleFlags::SPEED);
+    let is_measured = is_known(status, SpindleFlags::SPEED);
     // Not -0.
     is_measured.then_some(60.0 * status.spindle_v + 0.0)
 }
 
 /// Load of the spindle as a part of its rated torque; nothing where nobody measures it.
 fn spindle_load(status: &Status) -> Option<f64> {
-    let is_measured = status.spindle().contains(SpindleFlags::LOAD);
+    let is_measured = is_known(status, SpindleFlags::LOAD);
     is_measured.then_some(status.spindle_load)
 }
 
@@ -203,7 +208,7 @@ pub(super) fn machine_object(status: &Status, asked: &AwaitedEvent) -> Map<Strin
         "spindle_rpm": spindle_rpm(status),
         "spindle_load": spindle_load(status),
         "spindle_override": status.spindle_override,
-        "spindle_at_speed": status.spindle().contains(SpindleFlags::AT_SPEED),
+        "spindle_at_speed": is_known(status, SpindleFlags::AT_SPEED),
         "awaited": awaited(status, asked),
     });
     match object {

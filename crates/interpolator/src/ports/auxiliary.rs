@@ -81,6 +81,7 @@ impl AuxiliaryBook {
     }
 
     fn put_override(&mut self) {
+        self.record.spindle_override_locked = self.is_locked.into();
         self.record.spindle_override = if self.is_locked {
             1.0
         } else {

@@ -117,12 +117,12 @@ pub struct Auxiliary {
     /// The angle at which the spindle is to stand where it is to stand at one, degrees from 0 to 360,
     /// rising as it turns clockwise; means something if `spindle_turn` says so.
     pub spindle_angle: f64,
-    /// What the operator makes of its speed, a ratio; 1 where a program allows none (M49).
+    /// What the operator makes of its speed, a ratio; 1 while `spindle_override_locked` says so.
     pub spindle_override: f64,
     /// Code of an [`OrientTurn`]: whether a program gave that angle, and the way there.
     pub spindle_turn: u32,
-    /// Must be zero.
-    pub reserved: u32,
+    /// 1 while a program keeps the override of the spindle from the operator (M49), else 0.
+    pub spindle_override_locked: u32,
 }
 
 impl Auxiliary {
@@ -139,6 +139,12 @@ impl Auxiliary {
     #[must_use]
     pub fn spindle_rpm(&self) -> f64 {
         self.spindle_speed * self.spindle_override
+    }
+
+    /// Whether a program keeps the override of the spindle from the operator (M49).
+    #[must_use]
+    pub const fn is_spindle_override_locked(&self) -> bool {
+        self.spindle_override_locked != 0
     }
 
     /// The angle at which the spindle is to stand, degrees, and the way there; `None` where it is to
@@ -248,7 +254,7 @@ impl Record for Auxiliary {
         fields.override_ratio("spindle_override", self.spindle_override)?;
         fields.range("spindle_angle", self.spindle_angle, 0.0, 360.0)?;
         fields.code::<OrientTurn>("spindle_turn", self.spindle_turn)?;
-        fields.zero("reserved", self.reserved)?;
+        fields.flags("spindle_override_locked", self.spindle_override_locked, 1)?;
         self.awaited_words.check(Self::NAME)?;
         fields.all_finite("analog_out", &self.analog_out)?;
         self.awaited_event().map(|_| ())

@@ -132,5 +132,12 @@ fn spindle(told: &Auxiliary) -> Value {
         (false, true) => "flood",
         (true, true) => "mist and flood",
     };
-    json!({ "speed": told.spindle_rpm(), "programmed": told.spindle_speed, "turns": turns, "coolant": coolant })
+    json!({
+        "speed": told.spindle_rpm(),
+        "programmed": told.spindle_speed,
+        "turns": turns,
+        "coolant": coolant,
+        "override": told.spindle_override,
+        "is_override_locked": told.is_spindle_override_locked(),
+    })
 }

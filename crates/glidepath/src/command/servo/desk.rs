@@ -47,6 +47,7 @@ pub(super) fn play(
     let mut feedback = (!args.listens)
         .then(|| transport.feedback_sink())
         .transpose()?;
+    let mut told = transport.auxiliary_source()?;
     let mut plant = plant(config, &args.stands);
     if let Some((joint, position)) = args.probe {
         plant = plant.with_probe(joint, position);
@@ -62,6 +63,9 @@ pub(super) fn play(
             if !take(Told::Setpoint(&setpoint))? {
                 break 'playing;
             }
+        }
+        while let Some(record) = told.take()? {
+            plant.override_spindle(record.spindle_override);
         }
         // A real servo stack hands this to its drives, and asks them where they are.
         let demand = servo.demand(now_ns);

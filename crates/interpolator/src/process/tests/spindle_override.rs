@@ -34,12 +34,15 @@ fn the_record_has_it_unless_a_program_locks_it() {
     bench.run(2);
     let record = newest(&mut *records);
     assert!((override_of(&record) - 1.0).abs() < 1e-12, "it is locked");
+    assert!(record.is_spindle_override_locked());
     // What is set meanwhile counts later.
     bench.command(Command::SpindleOverride(0.6)).unwrap();
     bench.command(Command::Abort).unwrap();
     assert!(bench.run_to(MachineState::Idle, 500));
     bench.run(10);
-    assert!((override_of(&newest(&mut *records)) - 0.6).abs() < 1e-12);
+    let record = newest(&mut *records);
+    assert!((override_of(&record) - 0.6).abs() < 1e-12);
+    assert!(!record.is_spindle_override_locked());
 }
 
 #[test]
