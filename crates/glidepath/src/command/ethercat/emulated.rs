@@ -76,6 +76,9 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
     if let Some(encoder) = emulated_terminals::encoder(&settings.terminals) {
         segment.add_encoder(encoder);
     }
+    if let Some(gearbox) = emulated_terminals::gearbox(&settings.terminals) {
+        segment.add_gearbox(gearbox);
+    }
     for encoder in emulated_terminals::load_encoders(&settings.drives, &settings.terminals) {
         segment.add_load_encoder(encoder);
     }
