@@ -65,7 +65,7 @@ impl Interpreter {
             let message = format!("M{code} is a gear that the spindle does not have");
             return Err(
                 BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
-                    .because(&format!("it has {}", self.options.gears.listed()))
+                    .because(format!("it has {}", self.options.gears.listed()))
                     .help("write the word of one of these, or add it to `gears` in [spindle]"),
             );
         };
@@ -130,7 +130,7 @@ impl Interpreter {
         };
         Err(
             BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
-                .because(&format!("the spindle has {}", gears.listed()))
+                .because(format!("the spindle has {}", gears.listed()))
                 .help(
                     "write an S that the gear has, in the block of its word or in front of it, or the word of \
                      another gear",
