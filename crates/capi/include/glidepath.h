@@ -158,6 +158,7 @@ enum {
     GP_FAULT_DEVICE_LOST = 20,
     GP_FAULT_BUS_LOST = 21,
     GP_FAULT_SPINDLE_DRIVE = 22,
+    GP_FAULT_SPINDLE_GEAR = 23,
     GP_FAULT_FRAME_NOT_FINITE = 0x101,
     GP_FAULT_FRAME_MALFORMED = 0x102,
     GP_FAULT_FRAME_PERIOD = 0x103,
@@ -247,7 +248,8 @@ enum {
     GP_EVENT_AWAIT = 12,
     GP_EVENT_TAP = 13,
     GP_EVENT_PASSING_CODE = 14,
-    GP_EVENT_SPINDLE_ANGLE = 15
+    GP_EVENT_SPINDLE_ANGLE = 15,
+    GP_EVENT_SPINDLE_GEAR = 16
 };
 
 /* What a drive does, by the states of CiA 402. */
@@ -300,7 +302,8 @@ enum {
     GP_SPINDLE_ANGLE = 0x10,
     GP_SPINDLE_INDEX = 0x20,
     GP_SPINDLE_SPEED = 0x40,
-    GP_SPINDLE_LOAD = 0x80
+    GP_SPINDLE_LOAD = 0x80,
+    GP_SPINDLE_IN_GEAR = 0x100
 };
 
 /* Why a servo stopped the joints by itself. */
@@ -324,7 +327,8 @@ enum {
     GP_LOSS_SETPOINTS = 1,
     GP_LOSS_DEVICE = 2,
     GP_LOSS_BUS = 3,
-    GP_LOSS_SPINDLE = 4
+    GP_LOSS_SPINDLE = 4,
+    GP_LOSS_GEAR = 5
 };
 
 /* How a latched position was found. */
@@ -947,7 +951,7 @@ typedef struct gp_feedback {
     uint32_t loss;
     /* Of setpoints, how long none came, s. Of a device, its place in the line from 0, or -1
        where none says that it is missing. Of a spindle the number of its fault, 0 without
-       power. 0 otherwise. */
+       power. Of a gear its number, 0 where nobody said which one is to be in. 0 otherwise. */
     double loss_value;
     /* The inputs that are latched. */
     gp_latch latch[4];

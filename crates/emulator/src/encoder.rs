@@ -49,6 +49,11 @@ impl EncoderAtWork {
         self.encoder.device
     }
 
+    /// What turns it: the drive of the spindle, device and axis of it.
+    pub(crate) const fn spindle(&self) -> (usize, usize) {
+        self.encoder.spindle
+    }
+
     /// It loses counts, or counts what is not there.
     pub(crate) const fn slip(&mut self, counts: i64) {
         self.slip += counts;
@@ -66,12 +71,12 @@ impl EncoderAtWork {
         ((nth(from) - nth(to)).abs() > 0.5).then_some(at)
     }
 
-    /// Looks where the spindle is.
-    pub(crate) fn watch(&mut self, devices: &mut [Device], now_ns: u64) {
+    /// Looks where the spindle is: as far as its motor has turned, or as far as is known behind a gearbox.
+    pub(crate) fn watch(&mut self, devices: &mut [Device], behind: Option<f64>, now_ns: u64) {
         let (device, axis) = self.encoder.spindle;
         let spindle = devices.get(device);
         let revolutions = spindle.and_then(|device| device.drives.get(axis)?.revolutions(now_ns));
-        let Some(now) = revolutions else {
+        let Some(now) = behind.or(revolutions) else {
             return;
         };
         let from = self.seen.replace(now).unwrap_or(now);

@@ -5,6 +5,7 @@ use crate::contact::{Contact, Probe};
 use crate::device::Device;
 use crate::encoder::{Encoder, EncoderAtWork};
 use crate::frame::{Datagram, datagrams};
+use crate::gearbox::{Gearbox, GearboxAtWork};
 use crate::injected_fault::InjectedFault;
 use crate::load_encoder::{LoadEncoder, LoadEncoderAtWork};
 use crate::pins::OutputRecord;
@@ -22,6 +23,7 @@ pub struct Segment {
     devices: Vec<Device>,
     contacts: Vec<Contact>,
     encoders: Vec<EncoderAtWork>,
+    gearboxes: Vec<GearboxAtWork>,
     load_encoders: Vec<LoadEncoderAtWork>,
 }
 
@@ -47,6 +49,7 @@ impl Segment {
             devices: Vec::new(),
             contacts: Vec::new(),
             encoders: Vec::new(),
+            gearboxes: Vec::new(),
             load_encoders: Vec::new(),
         })
     }
@@ -63,6 +66,7 @@ impl Segment {
                 .collect(),
             contacts: Vec::new(),
             encoders: Vec::new(),
+            gearboxes: Vec::new(),
             load_encoders: Vec::new(),
         })
     }
@@ -77,6 +81,40 @@ impl Segment {
     pub fn add_encoder(&mut self, encoder: Encoder) {
         self.devices.iter_mut().for_each(Device::keep_ways);
         self.encoders.push(EncoderAtWork::new(encoder));
+    }
+
+    /// Puts a gearbox between a spindle and its motor.
+    pub fn add_gearbox(&mut self, gearbox: Gearbox) {
+        self.devices.iter_mut().for_each(Device::keep_ways);
+        self.gearboxes.push(GearboxAtWork::new(gearbox));
+    }
+
+    /// The gears of all gearboxes do not come in any more, or they do again.
+    pub fn stick_gears(&mut self, is_stuck: bool) {
+        for gearbox in &mut self.gearboxes {
+            gearbox.stick(is_stuck);
+        }
+    }
+
+    /// The gears that are in come out by themselves, and none comes in any more.
+    pub fn drop_gears(&mut self) {
+        for gearbox in &mut self.gearboxes {
+            gearbox.fall_out();
+        }
+    }
+
+    /// How many gears were changed while their motor turned too fast.
+    #[must_use]
+    pub fn broken_gears(&self) -> u32 {
+        self.gearboxes.iter().map(GearboxAtWork::broken).sum()
+    }
+
+    /// How far the spindle behind a gearbox has turned, revolutions; `None` where there is none.
+    #[must_use]
+    pub fn spindle_revolutions(&self, spindle: (usize, usize)) -> Option<f64> {
+        let mut gearboxes = self.gearboxes.iter();
+        let gearbox = gearboxes.find(|gearbox| gearbox.is_of(spindle))?;
+        Some(gearbox.revolutions())
     }
 
     /// Puts an encoder on a joint.
@@ -213,8 +251,16 @@ impl Segment {
         for contact in &mut self.contacts {
             contact.watch(&mut self.devices, now_ns);
         }
+        for gearbox in &mut self.gearboxes {
+            gearbox.watch(&mut self.devices, now_ns);
+        }
         for encoder in &mut self.encoders {
-            encoder.watch(&mut self.devices, now_ns);
+            let behind = self
+                .gearboxes
+                .iter()
+                .find(|gearbox| gearbox.is_of(encoder.spindle()));
+            let turned = behind.map(GearboxAtWork::revolutions);
+            encoder.watch(&mut self.devices, turned, now_ns);
         }
         for encoder in &self.load_encoders {
             encoder.watch(&mut self.devices, now_ns);

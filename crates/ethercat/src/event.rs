@@ -40,6 +40,12 @@ pub enum Event {
     SpindleFault(u16),
     /// The drive of the spindle does not get power, or lost it; this is how far it came.
     SpindleWithoutPower(DriveState),
+    /// A gear of the spindle did not come in in time.
+    GearNotIn(u32),
+    /// The input of the gear in which the spindle turns fell, or that of another one came.
+    GearLost(u32),
+    /// The spindle is to turn, inputs tell no gear, and none was commanded.
+    GearUnknown,
     /// Devices that are no drives do not take part in the process data, and say nothing.
     TerminalsShort,
     /// A drive looks for its home.
@@ -100,6 +106,19 @@ impl Event {
                 "the spindle has no power: its drive is \"{}\"",
                 state::name(*state)
             ),
+            Self::GearNotIn(gear) => write!(
+                f,
+                "gear {gear} of the spindle is not in: its input did not come in time, or that of another gear is on"
+            ),
+            Self::GearLost(gear) => write!(
+                f,
+                "gear {gear} of the spindle is not in any more: its input fell while the spindle turned, or that of \
+                 another gear came"
+            ),
+            Self::GearUnknown => write!(
+                f,
+                "the gear of the spindle is not known: inputs tell none or several, and no program has named one"
+            ),
             Self::TerminalsShort => write!(
                 f,
                 "a device that is no drive does not take part, and says that it is in OP: its inputs and \
@@ -154,6 +173,9 @@ impl fmt::Display for Event {
             | Self::TerminalEmergency(..)
             | Self::SpindleFault(_)
             | Self::SpindleWithoutPower(_)
+            | Self::GearNotIn(_)
+            | Self::GearLost(_)
+            | Self::GearUnknown
             | Self::TerminalsShort
             | Self::LoadSlipped(..) => self.tell_other(f),
             Self::Homing(joint) => write!(f, "J{joint} looks for its home"),

@@ -98,8 +98,9 @@ pub use run::{Listeners, RunError, RunSettings, run};
 pub use settings::{BusSettings, DEVICE_AXES, DriveSettings, HomingSettings, Settings};
 pub use terminal::{
     ANALOG_INPUTS, AnalogInput, AnalogOutput, At, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
-    EncoderSettings, EncoderUse, JointEncoderSettings, OrientationSettings, Parameter, Quantity,
-    Signal, SpindleMode, SpindleSettings, TerminalSettings,
+    EncoderSettings, EncoderUse, Gear, GearSettings, JointEncoderSettings, MOST_GEARS,
+    OrientationSettings, Parameter, Quantity, Signal, SpindleMode, SpindleSettings, Swing,
+    TerminalSettings,
 };
 pub use transfer_trouble::TransferTrouble;
 pub use wire::{MAX_FRAME, PacketWire, Wire, WireError};

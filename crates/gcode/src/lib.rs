@@ -80,6 +80,7 @@ pub use setup::fanuc::{
     PointInput,
 };
 pub use setup::firmware::Firmware;
+pub use setup::gears::{GearSpeeds, Gears};
 pub use setup::kept_variables::{KEPT_VARIABLES, KeptVariables};
 pub use setup::m_codes::{MCodes, WaitsAt};
 pub use setup::machine::{AxisTravel, Machine};

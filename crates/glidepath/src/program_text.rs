@@ -191,6 +191,8 @@ impl ProgramText {
         let _ = match event {
             Event::SpindleSpeed(speed) => writeln!(self.text, "S{speed}"),
             Event::SelectTool(tool) => writeln!(self.text, "T{tool}"),
+            // The code that comes next says it.
+            Event::SpindleGear(_) => Ok(()),
             // Their further words are not part of the event.
             Event::MCode(19 | 61 | 66)
             | Event::SpindleAngle { .. }

@@ -77,11 +77,11 @@ pub use record::{
     EVENTS_MOST, EndOfEpoch, EventId, EventKind, EventRecord, FRAME_REFUSALS, FaultCause, Feedback,
     FrameRefusal, FreezeReason, Grants, JobKind, JobPhase, JobReply, JobRequest, JobStage,
     JobState, JobWish, JogDemand, JogMode, LATCHES, Latch, LatchKind, LinesReply, LinesRequest,
-    LinesState, LinesWish, LongText, Loss, MachineState, ModeCode, MotionMode, OVERRIDE_MAX,
-    OrientTurn, PERIOD_NS_MAX, PlaneCode, Power, Quantiles, Record, RecordError, RequestKind,
-    SegmentOutcome, SegmentRefusal, SegmentReply, SegmentRequest, Setpoint, SetpointFrame,
-    SetpointMarks, SpindleFlags, SpindleState, Status, StreamItem, SuperpositionState,
-    TOLD_SYSTEMS, TOLERANCE_RATIOS, Text, decode,
+    LinesState, LinesWish, LongText, Loss, MOST_GEARS, MachineState, ModeCode, MotionMode,
+    OVERRIDE_MAX, OrientTurn, PERIOD_NS_MAX, PlaneCode, Power, Quantiles, Record, RecordError,
+    RequestKind, SegmentOutcome, SegmentRefusal, SegmentReply, SegmentRequest, Setpoint,
+    SetpointFrame, SetpointMarks, SpindleFlags, SpindleState, Status, StreamItem,
+    SuperpositionState, TOLD_SYSTEMS, TOLERANCE_RATIOS, Text, decode,
 };
 pub use service::Capacity;
 pub use stall::STALL;

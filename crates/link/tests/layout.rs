@@ -139,12 +139,13 @@ layout!(command_request, CommandRequest, "glidepath.CommandRequest.v8", 208,
     CommandRequest::new(1, 1, Command::Ping), {
     client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32, job: 56, asked_ns: 64, job_stream: 72, reserved: 76, text: 80,
 });
-layout!(auxiliary, Auxiliary, "glidepath.Auxiliary.v3", 680,
+layout!(auxiliary, Auxiliary, "glidepath.Auxiliary.v4", 688,
     Auxiliary::default(), {
     boot_id: 0, generation: 8, epoch: 16, sequence: 24, awaited: 32, awaited_since_ns: 56,
     awaited_until_ns: 64, awaited_value: 72, awaited_kind: 80, line: 84, awaited_words: 88, spindle_speed: 112,
     spindle: 120, coolant: 124, tool: 128, prepared_tool: 132, digital_out: 136, analog_out: 144,
-    spindle_angle: 656, spindle_override: 664, spindle_turn: 672, spindle_override_locked: 676,
+    spindle_angle: 656, spindle_override: 664, spindle_turn: 672, spindle_override_locked: 676, spindle_gear: 680,
+    reserved: 684,
 });
 layout!(command_reply, CommandReply, "glidepath.CommandReply.v3", 152,
     CommandReply { state: 1, ..Zeroable::zeroed() }, {

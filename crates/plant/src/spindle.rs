@@ -174,7 +174,9 @@ impl Spindle {
                 | flag(self.speed.abs() < NEAR, SpindleFlags::STOPPED)
                 | SpindleFlags::SPEED.0
                 | SpindleFlags::ANGLE.0
-                | SpindleFlags::INDEX.0,
+                | SpindleFlags::INDEX.0
+                // Whatever gear it is told is in at once: none of them changes what it does.
+                | SpindleFlags::IN_GEAR.0,
         )
     }
 }

@@ -127,6 +127,8 @@ pub enum Event {
         /// The way there.
         way: OrientWay,
     },
+    /// The gear that the spindle is to have, 1 to 5. Its M code (M41 to M45) comes next.
+    SpindleGear(u32),
     /// Tool selection (T). Does not stop the motion.
     SelectTool(u32),
     /// An M code other than the program stops. The machine is at rest when it happens.
@@ -202,6 +204,7 @@ impl Event {
             | Self::DigitalOutput { .. }
             | Self::AnalogOutput { .. } => false,
             Self::MCode(_)
+            | Self::SpindleGear(_)
             | Self::ProgramStop(_)
             | Self::OptionalStop
             | Self::Probe { .. }

@@ -122,6 +122,7 @@ class Fault(enum.IntEnum):
     DEVICE_LOST = 20
     BUS_LOST = 21
     SPINDLE_DRIVE = 22
+    SPINDLE_GEAR = 23
     FRAME_NOT_FINITE = 257
     FRAME_MALFORMED = 258
     FRAME_PERIOD = 259
@@ -219,6 +220,7 @@ class Event(enum.IntEnum):
     TAP = 13
     PASSING_CODE = 14
     SPINDLE_ANGLE = 15
+    SPINDLE_GEAR = 16
 
 
 class Drive(enum.IntEnum):
@@ -277,6 +279,7 @@ class Spindle(enum.IntFlag):
     INDEX = 32
     SPEED = 64
     LOAD = 128
+    IN_GEAR = 256
 
 
 class Stopped(enum.IntEnum):
@@ -304,6 +307,7 @@ class Loss(enum.IntEnum):
     DEVICE = 2
     BUS = 3
     SPINDLE = 4
+    GEAR = 5
 
 
 class Latch(enum.IntEnum):

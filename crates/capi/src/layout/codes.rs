@@ -129,6 +129,7 @@ fn of_servos() -> Vec<Codes> {
                 ("INDEX", SpindleFlags::INDEX.0),
                 ("SPEED", SpindleFlags::SPEED.0),
                 ("LOAD", SpindleFlags::LOAD.0),
+                ("IN_GEAR", SpindleFlags::IN_GEAR.0),
             ],
         ),
         own!("STOPPED", "Why a servo stopped the joints by itself.", Stopped:

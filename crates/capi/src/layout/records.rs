@@ -417,8 +417,8 @@ structure! {
         /// that it tells until a fault of the interpolator is reset, or another interpolator is there.
         loss: u32,
         /// Of setpoints, how long none came, s. Of a device, its place in the line from 0, or -1 where
-        /// none says that it is missing. Of a spindle the number of its fault, 0 without power. 0
-        /// otherwise.
+        /// none says that it is missing. Of a spindle the number of its fault, 0 without power. Of
+        /// a gear its number, 0 where nobody said which one is to be in. 0 otherwise.
         loss_value: f64,
         /// The inputs that are latched.
         latch: [Latch; LATCHES],

@@ -13,12 +13,14 @@ pub(super) enum BridgeLoss {
     Bus,
     /// The drive of the spindle, which has this fault, or 0 where it has no power.
     Spindle(u16),
+    /// The gear of the spindle, 0 where nobody said which one is to be in.
+    Gear(u32),
 }
 
 impl BridgeLoss {
     /// Whether outputs are at rest by it. Those of programs have nothing to do with the spindle.
     pub(super) const fn stops_outputs(self) -> bool {
-        !matches!(self, Self::Spindle(_))
+        !matches!(self, Self::Spindle(_) | Self::Gear(_))
     }
 
     #[allow(clippy::cast_precision_loss, reason = "some milliseconds, and a place")]
@@ -28,6 +30,7 @@ impl BridgeLoss {
             Self::Device(position) => (Loss::Device, position.map_or(-1.0, |at| at as f64)),
             Self::Bus => (Loss::Bus, 0.0),
             Self::Spindle(code) => (Loss::Spindle, f64::from(code)),
+            Self::Gear(gear) => (Loss::Gear, f64::from(gear)),
         };
         (feedback.loss, feedback.loss_value) = (loss.code(), value);
     }

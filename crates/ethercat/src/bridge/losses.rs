@@ -6,7 +6,7 @@
 use super::Bridge;
 use super::loss::BridgeLoss;
 use crate::event::Event;
-use crate::terminal::Terminals;
+use crate::terminal::{SpindleLoss, Terminals};
 use glidepath_link::{Feedback, Setpoint, Subscriber};
 
 impl<S: Subscriber<Setpoint>> Bridge<S> {
@@ -37,11 +37,14 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         }
     }
 
-    /// The drive of the spindle has failed.
+    /// The drive of the spindle has failed, or its gear.
     pub(super) fn note_spindle(&mut self) {
-        let fault = self.terminals.as_ref().and_then(Terminals::spindle_fault);
-        if let Some(code) = fault {
-            self.loss.get_or_insert(BridgeLoss::Spindle(code));
+        let failed = self.terminals.as_ref().and_then(Terminals::spindle_fault);
+        if let Some(failed) = failed {
+            self.loss.get_or_insert(match failed {
+                SpindleLoss::Drive(code) => BridgeLoss::Spindle(code),
+                SpindleLoss::Gear(gear) => BridgeLoss::Gear(gear),
+            });
         }
     }
 

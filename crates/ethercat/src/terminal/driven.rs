@@ -49,6 +49,9 @@ impl Gate {
     /// What it obeys is on or off now; returns whether it is to be at rest all the same. An output of
     /// programs is obeyed whatever has been.
     const fn rests(&mut self, is_on: bool, (of, cycle): (Of, Cycle)) -> bool {
+        if matches!(of, Of::Gear) {
+            return false;
+        }
         let is_safe = cycle.safe > 1 || (cycle.safe == 1 && matches!(of, Of::Spindle));
         let begins = is_on && !self.was_on;
         self.waits |= is_safe || (cycle.is_old_news && begins);
@@ -89,6 +92,12 @@ pub(super) struct DrivenOutputs {
     programmed_rpm: f64,
     /// The angle at which it is to stand.
     spindle_angle: Option<(f64, OrientWay)>,
+    /// The gear that is to be in, 0 where nobody said one.
+    spindle_gear: u32,
+    /// It was commanded since that was asked last.
+    is_gear_asked: bool,
+    /// The gear whose output is on; `None`: the one that is to be in.
+    put_in: Option<u32>,
     has_spindle: bool,
     safe: u32,
     /// Nothing was heard of the record since nobody was to be obeyed.
@@ -134,10 +143,21 @@ impl DrivenOutputs {
             is_old_news: is_news && self.is_fresh,
         };
         self.is_fresh = is_safe || (self.is_fresh && !is_news);
-        self.put(commands.now(), cycle, image)
+        self.spindle_gear = commands.now().spindle_gear;
+        match self.put_in {
+            None => self.put(commands.now(), cycle, image),
+            Some(spindle_gear) => {
+                let record = Auxiliary {
+                    spindle_gear,
+                    ..*commands.now()
+                };
+                self.put(&record, cycle, image)
+            }
+        }
     }
 
     fn command(&mut self, event: Event) {
+        self.is_gear_asked |= matches!(event, Event::SpindleGear(_));
         for output in &mut self.digital {
             output.gate.waits &= !output.wired.what.from.is_commanded_by(event);
         }
@@ -187,6 +207,21 @@ impl DrivenOutputs {
     /// The speed at which the drive of the spindle is to turn, rev/min.
     pub(super) const fn spindle_rpm(&self) -> f64 {
         self.spindle_rpm
+    }
+
+    /// The gear in which it is to turn, 0 where nobody said one.
+    pub(super) const fn spindle_gear(&self) -> u32 {
+        self.spindle_gear
+    }
+
+    /// Whether that was commanded since this was asked last.
+    pub(super) const fn take_asked_gear(&mut self) -> bool {
+        core::mem::replace(&mut self.is_gear_asked, false)
+    }
+
+    /// The gear whose output is on from the next cycle on, as the spindle's drive leads the change.
+    pub(super) const fn put_gear_in(&mut self, gear: u32) {
+        self.put_in = Some(gear);
     }
 
     /// The speed that the program gave it, rev/min.

@@ -8,6 +8,7 @@
 //! | `bits`, `wiring` | where in the process data everything is |
 //! | `driven` | outputs, cycle by cycle |
 //! | `spindle_settings`, `spindle_wiring`, `spindle_drive`, `orienting` | a spindle on a drive in velocity mode, and at an angle |
+//! | `gear_settings`, `gearbox` | the gears of that spindle |
 //! | `encoder_settings`, `encoder_wiring`, `encoder` | the spindle's encoder |
 //! | `joint_encoder` | encoders of joints |
 //! | `counter` | a counter without its wraps, of both |
@@ -21,6 +22,8 @@ mod driven;
 mod encoder;
 mod encoder_settings;
 mod encoder_wiring;
+mod gear_settings;
+mod gearbox;
 mod joint_encoder;
 mod orienting;
 mod settings;
@@ -34,6 +37,7 @@ mod worked;
 
 pub use at::At;
 pub use encoder_settings::EncoderSettings;
+pub use gear_settings::{Gear, GearSettings, MOST_GEARS, Swing};
 pub use joint_encoder::{EncoderUse, JointEncoderSettings};
 pub use orienting::OrientationSettings;
 pub use settings::{
@@ -44,5 +48,6 @@ pub use signal::{Quantity, Signal};
 pub use spindle_settings::{SpindleMode, SpindleSettings};
 
 pub(crate) use driven::at_rest;
+pub(crate) use spindle_drive::SpindleLoss;
 pub(crate) use wiring::Wiring;
 pub(crate) use worked::{Answered, Terminals};

@@ -30,12 +30,20 @@ pub struct DigitalInput {
 }
 
 impl DigitalInput {
+    /// The bit of its number, while it is on.
+    pub(crate) fn numbered(&self, is_high: bool) -> u64 {
+        match self.number {
+            Some(number) if is_high != self.is_inverted => 1 << (number & 63),
+            _ => 0,
+        }
+    }
+
     /// Adds what it is, while its level is high or low.
     pub(crate) fn tell(&self, is_high: bool, feedback: &mut Feedback) {
+        feedback.digital_in |= self.numbered(is_high);
         if is_high == self.is_inverted {
             return;
         }
-        feedback.digital_in |= self.number.map_or(0, |number| 1 << (number & 63));
         let of_joint = |joint: Option<usize>| joint.map_or(0, |joint| 1 << (joint & 31));
         feedback.home_switch |= of_joint(self.home);
         feedback.limit_low |= of_joint(self.limit_low);

@@ -16,6 +16,8 @@ pub enum Signal {
     SpindleReverse,
     /// The spindle is to stand at a known angle (M19).
     SpindleOrient,
+    /// A gear of the spindle, 1 to 5, is to be in (M41 to M45).
+    SpindleGear(u32),
     /// Mist (M7).
     Mist,
     /// Flood (M8).
@@ -38,6 +40,8 @@ pub enum Quantity {
 pub(crate) enum Of {
     /// The spindle's: at rest before all others, and obeyed again when it is commanded anew.
     Spindle,
+    /// A gear's: it stays as it is where nobody is to be obeyed, as no gear is drawn out of a spindle that turns.
+    Gear,
     /// Coolant: obeyed again when it is commanded anew.
     Coolant,
     /// A program's: obeyed whatever has been.
@@ -49,7 +53,7 @@ impl Of {
         match self {
             Self::Spindle => is_code(event, &SPINDLE),
             Self::Coolant => is_code(event, &COOLANT),
-            Self::Program => false,
+            Self::Program | Self::Gear => false,
         }
     }
 }
@@ -61,7 +65,10 @@ const COOLANT: [u32; 3] = [7, 8, 9];
 
 /// Whether an event says how the spindle is to turn.
 pub(crate) fn is_of_spindle(event: Event) -> bool {
-    matches!(event, Event::SpindleSpeed(_) | Event::SpindleAngle { .. }) || is_code(event, &SPINDLE)
+    matches!(
+        event,
+        Event::SpindleSpeed(_) | Event::SpindleAngle { .. } | Event::SpindleGear(_)
+    ) || is_code(event, &SPINDLE)
 }
 
 fn turns(record: &Auxiliary, way: SpindleState) -> bool {
@@ -85,6 +92,7 @@ impl Signal {
             Self::SpindleForward => turns(record, SpindleState::Clockwise),
             Self::SpindleReverse => turns(record, SpindleState::Counterclockwise),
             Self::SpindleOrient => turns(record, SpindleState::Oriented),
+            Self::SpindleGear(gear) => record.spindle_gear == gear,
             Self::Mist => record.coolant().contains(Coolant::MIST),
             Self::Flood => record.coolant().contains(Coolant::FLOOD),
         }
@@ -95,6 +103,7 @@ impl Signal {
         match self {
             Self::Output(_) => Of::Program,
             Self::Mist | Self::Flood => Of::Coolant,
+            Self::SpindleGear(_) => Of::Gear,
             _ => Of::Spindle,
         }
     }

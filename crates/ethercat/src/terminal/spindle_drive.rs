@@ -12,13 +12,20 @@
 //!
 //! The speed is led along a ramp, in every mode, and power goes when the spindle stands: a drive that
 //! loses its power in motion lets the tool run out. At an angle it is held with power.
+//!
+//! Gears are changed at rest and without power, in `Off`; or, where the motor turns to and fro meanwhile, with
+//! power in `Shifting`, which a spindle at rest gets to from `Turning`, and goes back from.
 
+mod shifting;
+mod told;
+
+use super::gearbox::Gearbox;
 use super::orienting::{Angle, Orienting};
 use super::spindle_settings::SpindleSettings;
 use super::spindle_wiring::{SpindleInputs, SpindleOutputs, WiredSpindle};
 use crate::event::Event;
 use crate::state;
-use glidepath_link::{DriveState, Feedback, SpindleFlags};
+use glidepath_link::DriveState;
 
 const DISABLE_VOLTAGE: u16 = 0x00;
 const SHUTDOWN: u16 = 0x06;
@@ -37,6 +44,8 @@ const LONGEST_NS: u64 = 20_000_000;
 const LOAD_NS: f64 = 1e8;
 /// "Generic error" by CiA 301, of a drive that does not tell its own.
 const ANY_FAULT: u16 = 0x1000;
+/// It did not get power, or lost it.
+const NO_POWER: SpindleLoss = SpindleLoss::Drive(0);
 /// Cyclic synchronous position, as 0x6060 has it.
 const CYCLIC_POSITION: i8 = 8;
 
@@ -48,6 +57,8 @@ enum Phase {
     Turning,
     /// It is led in position, to an angle and at it, or to rest from there; `None` before its drive is in that mode.
     Orienting(Option<Orienting>),
+    /// Its motor turns to and fro until a gear is in.
+    Shifting,
     /// It has a fault, or did not get power; to be reset by the operator.
     Failed,
     /// That was asked for, since then, ns.
@@ -64,6 +75,14 @@ pub(super) struct SpindleCycle {
     pub(super) programmed_rpm: f64,
     /// The angle at which it is to stand, if it is to stand at one.
     pub(super) angle: Option<Angle>,
+    /// The gear in which it is to turn, 0 for the one that is in.
+    pub(super) gear: u32,
+    /// That was commanded in this cycle.
+    pub(super) is_gear_asked: bool,
+    /// All digital inputs by their numbers.
+    pub(super) inputs: u64,
+    /// Nobody is to be obeyed.
+    pub(super) is_safe: bool,
     /// Whether its device is there.
     pub(super) is_present: bool,
     /// Whether what it told is of this cycle: not where another device did not take part.
@@ -78,6 +97,9 @@ pub(super) struct SpindleCycle {
 #[derive(Debug)]
 pub(super) struct SpindleDrive {
     wired: WiredSpindle,
+    /// The settings in the gear that is in.
+    present: SpindleSettings,
+    gearbox: Option<Gearbox>,
     phase: Phase,
     /// The speed that it is told, rev/min.
     told_rpm: f64,
@@ -93,13 +115,26 @@ pub(super) struct SpindleDrive {
     said: SpindleInputs,
     is_present: bool,
     is_due: bool,
-    /// Its last fault, 0 if it did not get power.
-    failed: Option<u16>,
+    failed: Option<SpindleLoss>,
+}
+
+/// What is lost of a spindle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum SpindleLoss {
+    /// Its drive has this fault, or 0 where it did not get power, or lost it.
+    Drive(u16),
+    /// This gear is not in, 0 where nobody said which one is to be.
+    Gear(u32),
 }
 
 impl SpindleDrive {
-    pub(super) const fn new(wired: WiredSpindle) -> Self {
+    pub(super) fn new(wired: WiredSpindle) -> Self {
+        let gears = wired.settings.gears;
+        // While none is known, speeds are those of the fastest one.
+        let first = gears.as_ref().and_then(|gears| gears.fastest());
         Self {
+            present: first.map_or(wired.settings, |gear| wired.settings.in_gear(gear)),
+            gearbox: gears.map(Gearbox::new),
             wired,
             phase: Phase::Off,
             told_rpm: 0.0,
@@ -122,11 +157,16 @@ impl SpindleDrive {
     }
 
     const fn settings(&self) -> &SpindleSettings {
-        &self.wired.settings
+        &self.present
     }
 
-    /// The number of its fault, 0 if it did not get power; `None` without.
-    pub(super) const fn failed(&self) -> Option<u16> {
+    /// The gear whose output is to be on; `None` without gears.
+    pub(super) fn put_in(&self) -> Option<u32> {
+        self.gearbox.as_ref().map(Gearbox::put_in)
+    }
+
+    /// What is lost of it; `None` if nothing is.
+    pub(super) const fn failed(&self) -> Option<SpindleLoss> {
         self.failed
     }
 
@@ -147,8 +187,10 @@ impl SpindleDrive {
         let since_ns = cycle.now_ns.saturating_sub(self.last_ns).min(LONGEST_NS);
         (self.last_ns, self.is_present, self.is_due) =
             (cycle.now_ns, cycle.is_present, cycle.is_due);
+        let has_gear = self.change_gear(&cycle, tell);
         let most = self.settings().max_rpm;
-        self.wanted_rpm = cycle.wanted_rpm.clamp(-most, most);
+        let wanted_rpm = if has_gear { cycle.wanted_rpm } else { 0.0 };
+        self.wanted_rpm = wanted_rpm.clamp(-most, most);
         let was = self.angle;
         self.angle = cycle
             .angle
@@ -193,7 +235,13 @@ impl SpindleDrive {
         SpindleOutputs {
             control,
             mode,
-            velocity: self.settings().counts(self.told_rpm),
+            velocity: match &self.gearbox {
+                Some(gearbox) if self.phase == Phase::Shifting => {
+                    let motor_rpm = gearbox.swing_rpm(self.last_ns);
+                    self.wired.settings.counts(motor_rpm)
+                }
+                _ => self.settings().counts(self.told_rpm),
+            },
             place,
         }
     }
@@ -204,13 +252,13 @@ impl SpindleDrive {
         let is_known = matches!(self.phase, Phase::Failed | Phase::Resetting(_));
         if self.is_present && is_faulted && !is_known {
             let code = said.fault.filter(|code| *code != 0).unwrap_or(ANY_FAULT);
-            self.fail(code);
+            self.fail(SpindleLoss::Drive(code));
             tell(Event::SpindleFault(code));
         }
     }
 
-    const fn fail(&mut self, code: u16) {
-        (self.phase, self.failed) = (Phase::Failed, Some(code));
+    const fn fail(&mut self, loss: SpindleLoss) {
+        (self.phase, self.failed) = (Phase::Failed, Some(loss));
     }
 
     /// The controlword.
@@ -225,12 +273,12 @@ impl SpindleDrive {
         match self.phase {
             Phase::Off => {
                 self.told_rpm = 0.0;
-                if self.is_to_work() && cycle.is_present {
+                if self.is_to_work(cycle) && cycle.is_present {
                     self.phase = Phase::Enabling(cycle.now_ns);
                 }
                 DISABLE_VOLTAGE
             }
-            Phase::Enabling(_) if !self.is_to_work() && !is_on => {
+            Phase::Enabling(_) if !self.is_to_work(cycle) && !is_on => {
                 self.phase = Phase::Off;
                 DISABLE_VOLTAGE
             }
@@ -242,19 +290,28 @@ impl SpindleDrive {
             }
             Phase::Enabling(begun_ns) => {
                 if cycle.now_ns.saturating_sub(begun_ns) > PATIENCE_NS {
-                    self.fail(0);
+                    self.fail(NO_POWER);
                     tell(Event::SpindleWithoutPower(state));
                     return DISABLE_VOLTAGE;
                 }
                 way_to_power(state)
             }
-            Phase::Turning | Phase::Orienting(_) if !is_on && cycle.is_present => {
+            Phase::Turning | Phase::Orienting(_) | Phase::Shifting
+                if !is_on && cycle.is_present =>
+            {
                 self.told_rpm = 0.0;
-                self.fail(0);
+                self.fail(NO_POWER);
                 tell(Event::SpindleWithoutPower(state));
                 DISABLE_VOLTAGE
             }
-            Phase::Turning => self.turn(since_ns),
+            Phase::Turning => self.turn(cycle, since_ns),
+            Phase::Shifting => {
+                if !self.swings(cycle) {
+                    self.told_rpm = self.actual_rpm;
+                    self.phase = Phase::Turning;
+                }
+                ENABLE_OPERATION | self.settings().mode.ramp_bits()
+            }
             Phase::Orienting(way) => {
                 self.orient(way, since_ns);
                 ENABLE_OPERATION
@@ -262,6 +319,9 @@ impl SpindleDrive {
             Phase::Failed => {
                 self.told_rpm = 0.0;
                 if cycle.resets {
+                    if let Some(gearbox) = &mut self.gearbox {
+                        gearbox.reset();
+                    }
                     (self.failed, self.phase) = (None, Phase::Resetting(cycle.now_ns));
                 }
                 DISABLE_VOLTAGE
@@ -285,9 +345,9 @@ impl SpindleDrive {
         }
     }
 
-    /// Whether it is to turn, or to stand at an angle.
-    fn is_to_work(&self) -> bool {
-        self.wanted_rpm != 0.0 || self.angle.is_some()
+    /// Whether it is to turn, to stand at an angle, or to turn to and fro until a gear is in.
+    fn is_to_work(&self, cycle: &SpindleCycle) -> bool {
+        self.wanted_rpm != 0.0 || self.angle.is_some() || self.swings(cycle)
     }
 
     /// Goes its way to an angle, or to rest where it is to stand at none any more.
@@ -326,7 +386,7 @@ impl SpindleDrive {
 
     /// Follows its ramp, and gives its power back when it is to stand and stands.
     #[allow(clippy::cast_precision_loss, reason = "some milliseconds")]
-    fn turn(&mut self, since_ns: u64) -> u16 {
+    fn turn(&mut self, cycle: &SpindleCycle, since_ns: u64) -> u16 {
         let is_turned = self.settings().orientation.is_some();
         if is_turned && self.said.mode != self.settings().mode.code() {
             // Its drive comes from position, where it stands.
@@ -337,70 +397,20 @@ impl SpindleDrive {
         let apart = self.wanted_rpm - self.told_rpm;
         self.told_rpm += apart.clamp(-step, step);
         let is_to_stand = self.wanted_rpm == 0.0 && self.told_rpm == 0.0;
-        if is_to_stand
-            && self
-                .near_ns
-                .is_some_and(|since| self.last_ns >= since + SETTLED_NS)
-        {
+        if is_to_stand && self.has_settled() {
             if self.angle.is_some() {
                 self.near_ns = None;
                 self.phase = Phase::Orienting(None);
                 return ENABLE_OPERATION;
             }
+            if self.swings(cycle) {
+                self.phase = Phase::Shifting;
+                return ENABLE_OPERATION | self.settings().mode.ramp_bits();
+            }
             self.phase = Phase::Off;
             return SHUTDOWN;
         }
         ENABLE_OPERATION | self.settings().mode.ramp_bits()
-    }
-
-    /// Since when it turns as fast as it is to, or stands.
-    fn judge_speed(&mut self, now_ns: u64, is_reachable: bool) {
-        let near_rpm = if self.wanted_rpm == 0.0 {
-            self.settings().still_rpm()
-        } else {
-            self.settings().near_rpm(self.wanted_rpm)
-        };
-        let is_led = (self.told_rpm - self.wanted_rpm).abs() <= 0.0 && is_reachable;
-        let is_near = match self.phase {
-            Phase::Orienting(_) => self.is_at_angle(),
-            _ => (self.actual_rpm - self.wanted_rpm).abs() <= near_rpm,
-        };
-        if is_led && is_near && self.is_present {
-            self.near_ns.get_or_insert(now_ns);
-        } else {
-            self.near_ns = None;
-        }
-    }
-
-    /// Adds what is known of it.
-    pub(super) fn tell(&self, feedback: &mut Feedback) {
-        if !self.is_present {
-            feedback.spindle_flags |= SpindleFlags::FAULT.0;
-            return;
-        }
-        feedback.spindle_v = self.actual_rpm / 60.0;
-        feedback.spindle_load = self.load_r;
-        let is_settled = self
-            .near_ns
-            .is_some_and(|since| self.last_ns >= since + SETTLED_NS)
-            && !self.is_due;
-        let stands = self.wanted_rpm == 0.0;
-        let mut set = |flag: SpindleFlags, is: bool| {
-            feedback.spindle_flags |= if is { flag.0 } else { 0 };
-        };
-        set(SpindleFlags::SPEED, true);
-        set(SpindleFlags::LOAD, self.settings().tells_load);
-        set(
-            SpindleFlags::AT_SPEED,
-            is_settled && !stands && self.phase == Phase::Turning,
-        );
-        set(SpindleFlags::STOPPED, is_settled && stands);
-        let is_held = matches!(self.phase, Phase::Orienting(Some(_)));
-        set(
-            SpindleFlags::ORIENTED,
-            is_settled && is_held && self.angle.is_some(),
-        );
-        set(SpindleFlags::FAULT, self.failed.is_some());
     }
 }
 

@@ -1,5 +1,6 @@
 //! The settings of a spindle on a drive in velocity mode (CiA 402).
 
+use super::gear_settings::{Gear, GearSettings};
 use super::orienting::{Guide, OrientationSettings};
 use crate::entry::Mapping;
 
@@ -59,7 +60,7 @@ impl SpindleMode {
 pub struct SpindleSettings {
     /// How it takes its speed.
     pub mode: SpindleMode,
-    /// A rev/min in the drive's unit of velocity, > 0.
+    /// A rev/min in the drive's unit of velocity, > 0: of the motor where it has gears.
     pub units_per_rpm: f64,
     /// It turns clockwise (M3) where the drive counts down.
     pub is_inverted: bool,
@@ -69,7 +70,9 @@ pub struct SpindleSettings {
     pub ramp_rpm_per_s: f64,
     /// How near to its speed it is at speed, as a part of it, > 0.
     pub at_speed_r: f64,
-    /// How it is turned to an angle; `None` if it is not. It takes cyclic velocity.
+    /// The gears between its motor and it; `None` if that turns as fast as it, or always by the same ratio.
+    pub gears: Option<GearSettings>,
+    /// How it is turned to an angle; `None` if it is not. It takes cyclic velocity, and no gears.
     pub orientation: Option<OrientationSettings>,
     /// Its drive tells its torque (0x6077), thousandths of the rated one.
     pub tells_load: bool,
@@ -78,6 +81,17 @@ pub struct SpindleSettings {
 }
 
 impl SpindleSettings {
+    /// The settings of the spindle in a gear, by which its drive is led.
+    pub(super) fn in_gear(&self, gear: &Gear) -> Self {
+        Self {
+            units_per_rpm: self.units_per_rpm * gear.ratio,
+            is_inverted: self.is_inverted != gear.is_inverted,
+            max_rpm: gear.max_rpm,
+            ramp_rpm_per_s: gear.ramp_rpm_per_s,
+            ..*self
+        }
+    }
+
     fn sign(&self) -> f64 {
         if self.is_inverted { -1.0 } else { 1.0 }
     }
@@ -104,7 +118,12 @@ impl SpindleSettings {
         reason = "it saturates"
     )]
     pub(crate) fn ramp_ns(&self) -> u64 {
-        (self.max_rpm / self.ramp_rpm_per_s * 1e9) as u64
+        let gears = self.gears.iter().flat_map(|gears| gears.all());
+        let own = self.max_rpm / self.ramp_rpm_per_s;
+        let longest = gears.fold(own, |longest, (_, gear)| {
+            longest.max(gear.max_rpm / gear.ramp_rpm_per_s)
+        });
+        (longest * 1e9) as u64
     }
 
     /// Below this it stands, rev/min: what an inverter's estimate is off.

@@ -1,6 +1,7 @@
 //! The wiring of devices: where in the image of all each input and output is.
 
 use super::at::At;
+use super::bits::bit;
 use super::encoder::WiredEncoder;
 use super::encoder_settings::EncoderSettings;
 use super::joint_encoder::WiredJointEncoder;
@@ -209,6 +210,14 @@ impl Wiring {
         self.unwired.resize(self.sizes.0, 0);
         self.sizes.1 += inputs.bytes();
         self.has_each_output_once()
+    }
+
+    /// The digital inputs by their numbers.
+    pub(crate) fn numbered(&self, inputs: &[u8]) -> u64 {
+        let on = self.inputs.iter();
+        on.fold(0, |all, wired| {
+            all | wired.what.numbered(bit(inputs, wired.bit))
+        })
     }
 
     /// A file can name the same output by its object and by its bit.

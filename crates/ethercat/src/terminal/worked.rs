@@ -6,7 +6,7 @@ use super::driven::DrivenOutputs;
 use super::encoder::Encoder;
 use super::joint_encoder::JointEncoder;
 use super::settings::AnalogInput;
-use super::spindle_drive::{SpindleCycle, SpindleDrive};
+use super::spindle_drive::{SpindleCycle, SpindleDrive, SpindleLoss};
 use super::wiring::{Wired, Wiring};
 use crate::device_state::DeviceState;
 use crate::event::Event;
@@ -161,12 +161,19 @@ impl Terminals {
                 wanted_rpm: self.outputs.spindle_rpm(),
                 programmed_rpm: self.outputs.programmed_rpm(),
                 angle: self.outputs.spindle_angle(),
+                gear: self.outputs.spindle_gear(),
+                is_gear_asked: self.outputs.take_asked_gear(),
+                inputs: self.wiring.numbered(&self.inputs),
+                is_safe,
                 is_present: is_in_op,
                 is_heard: self.short == 0,
                 resets,
                 is_due: self.commands.has_due_of_spindle(),
             };
             spindle.cycle(cycle, &self.inputs, image, tell);
+            if let Some(gear) = spindle.put_in() {
+                self.outputs.put_gear_in(gear);
+            }
         }
         if let Some(encoder) = &mut self.encoder {
             encoder.put(image, self.outputs.spindle_rpm() / 60.0);
@@ -182,8 +189,8 @@ impl Terminals {
         encoder.place(sample_ns.saturating_add(self.delay_ns))
     }
 
-    /// The number of the fault of the spindle's drive, 0 if it has no power; `None` without.
-    pub(crate) fn spindle_fault(&self) -> Option<u16> {
+    /// What is lost of the spindle; `None` if nothing is.
+    pub(crate) fn spindle_fault(&self) -> Option<SpindleLoss> {
         self.spindle.as_ref()?.failed()
     }
 

@@ -42,6 +42,7 @@ fn setup(period_ns: u64, bits: u32, has_index: bool) -> Setup {
         max_rpm: 8000.0,
         ramp_rpm_per_s: 10_000.0,
         at_speed_r: 0.02,
+        gears: None,
         orientation: None,
         tells_load: false,
         mapping: Mapping::Written,

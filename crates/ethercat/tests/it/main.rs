@@ -16,6 +16,7 @@ mod captures;
 mod encoder;
 mod ending;
 mod feed_forward;
+mod gears;
 mod history;
 mod judge;
 mod life;

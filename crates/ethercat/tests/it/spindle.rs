@@ -16,7 +16,7 @@ use glidepath_link::{Command, MachineState, Setpoint, SpindleFlags};
 
 pub(crate) const SPINDLE: usize = 5;
 /// As many as 0x60FF and 0x606C have in a revolution.
-const COUNTS: f64 = 60_000.0;
+pub(crate) const COUNTS: f64 = 60_000.0;
 const CUT: &str = "G21 G90 G64 P0.02 F3000\nS6000 M3\nG1 X10\nS3000 M4\nG1 X0\nM5\nG1 Y1\nM2\n";
 const LONG: &str = "G21 G90 G64 P0.02 F1200\nS6000 M3\nM62 P5\nG1 X50\nM2\n";
 
@@ -32,6 +32,7 @@ fn settings(mode: SpindleMode) -> SpindleSettings {
         max_rpm: 8000.0,
         ramp_rpm_per_s: 10_000.0,
         at_speed_r: 0.02,
+        gears: None,
         orientation: None,
         tells_load: false,
         mapping: Mapping::Written,

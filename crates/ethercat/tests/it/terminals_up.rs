@@ -77,6 +77,7 @@ const fn spindle(mode: SpindleMode, mapping: Mapping) -> SpindleSettings {
         max_rpm: 24_000.0,
         ramp_rpm_per_s: 8000.0,
         at_speed_r: 0.03,
+        gears: None,
         orientation: None,
         tells_load: false,
         mapping,

@@ -47,6 +47,8 @@ impl Interpreter {
             self.turn_spindle(None);
             self.push(out, ItemKind::Event(Event::MCode(5)));
         }
+        // A word counts until the end where S chooses the gear; elsewhere it stays like the gear itself.
+        self.state.spindle.chooses_gear |= self.options.gears.are_by_speed();
         if self.state.coolant != Coolant::default() {
             self.state.coolant = Coolant::default();
             self.push_passing_code(9, out);

@@ -32,7 +32,10 @@ impl State {
             modal: Modal::new(options.default_feed_mm_min),
             position: start,
             path_end: start,
-            spindle: Spindle::default(),
+            spindle: Spindle {
+                chooses_gear: options.gears.are_by_speed(),
+                ..Spindle::default()
+            },
             coolant: Coolant::default(),
             overrides_off: false,
             selected_tool: 0,

@@ -2,6 +2,7 @@
 
 pub(crate) mod fanuc;
 pub(crate) mod firmware;
+pub(crate) mod gears;
 pub(crate) mod kept_variables;
 pub(crate) mod m_codes;
 pub(crate) mod machine;

@@ -10,6 +10,7 @@ use crate::execute::state::in_force::InForce;
 use crate::execute::state::tip::Tip;
 use crate::setup::fanuc::{FanucControl, FanucParameters};
 use crate::setup::firmware::Firmware;
+use crate::setup::gears::Gears;
 use crate::setup::kept_variables::KeptVariables;
 use crate::setup::m_codes::MCodes;
 use crate::setup::machine::Machine;
@@ -73,6 +74,9 @@ pub struct Options {
     /// The spindle turns to the angle that a program gives it (M19 R), and stands there. Without it M19 is a
     /// place that the spindle knows by itself, or nothing but a stop.
     pub orients: bool,
+    /// The gears of the spindle, whose words `m_codes` has, too ([`Gears::declare`]); without them M41 to M45 are what
+    /// the language or `m_codes` has them be.
+    pub gears: Arc<Gears>,
     /// The axis that the spindle is where it does not turn; `None`: it is none.
     pub spindle_axis: Option<SpindleAxis>,
     /// Whether the feed follows an input of the machine (M52).
@@ -211,6 +215,7 @@ impl Default for Options {
             probing_v: None,
             threading: None,
             orients: false,
+            gears: Arc::default(),
             spindle_axis: None,
             adaptive_feed: AdaptiveFeed::None,
             tolerance_mm: 0.0,

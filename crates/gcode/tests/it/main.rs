@@ -42,6 +42,7 @@ mod fanuc_roll_over;
 mod fanuc_threads;
 mod five_axes;
 mod flow;
+mod gears;
 mod lathe_cycles;
 mod lathe_reference;
 mod m_codes;

@@ -229,6 +229,7 @@ fn how_done(answer: Option<AnswerSource>) -> Option<String> {
             AnswerSource::SpindleAtSpeed
             | AnswerSource::SpindleStopped
             | AnswerSource::SpindleOriented
+            | AnswerSource::SpindleInGear
             | AnswerSource::SpindleAngle,
         ) => None,
     }

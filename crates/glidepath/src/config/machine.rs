@@ -11,7 +11,7 @@ use super::spindle::SpindleConfig;
 use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_audit::{AuditSettings, JointBounds};
 use glidepath_gcode::{
-    AxisTravel, Connections, LoopLimits, MCodes, Machine, Options, SpindleAxis, Threading,
+    AxisTravel, Connections, Gears, LoopLimits, MCodes, Machine, Options, SpindleAxis, Threading,
 };
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_interpolator::{
@@ -58,6 +58,8 @@ pub struct MachineConfig {
     pub spindle: Option<SpindleConfig>,
     /// The least and the highest spindle override that an operator may set, ratios.
     pub spindle_override: [f64; 2],
+    /// The gears of the spindle, as programs choose them.
+    pub gears: Arc<Gears>,
     /// What slows programs down besides the override, if anything does.
     pub adaptive_feed: Option<AdaptiveFeed>,
     /// What moves an axis in addition to programs, if anything does: its share of the axis' limits, and its range of
@@ -310,6 +312,8 @@ impl MachineConfig {
             let MCodeRule { m_code_wait, at } = rule;
             m_codes.declare_waiting(m_code_wait.first, m_code_wait.last, *at);
         }
+        let dialect = self.program.dialect.unwrap_or_default();
+        self.gears.declare(dialect, &mut m_codes);
         Options {
             machine,
             default_feed_mm_min,
@@ -318,7 +322,7 @@ impl MachineConfig {
             tools: self.program.tools.clone(),
             variables: Arc::clone(&self.program.variables),
             subroutines: self.program.subroutines.clone(),
-            dialect: self.program.dialect.unwrap_or_default(),
+            dialect,
             question: self.program.question.clone(),
             fanuc: self.program.fanuc,
             siemens: self.program.siemens,
@@ -337,6 +341,7 @@ impl MachineConfig {
                     spindle_a: spindle.acceleration,
                     overtravel: spindle.overtravel,
                 }),
+            gears: Arc::clone(&self.gears),
             orients: self.spindle.is_some_and(|spindle| spindle.orientation),
             spindle_axis: self.spindle.and_then(|spindle| {
                 Some(SpindleAxis {

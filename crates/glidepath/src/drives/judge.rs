@@ -5,6 +5,7 @@ use super::bus::bus;
 use super::config::DrivesConfig;
 use super::device;
 use super::feed_forward::feed_forward;
+use super::gears;
 use super::raw::{RawDrive, RawDrives, RawHoming};
 use super::source::{DrivesSource, Place};
 use super::touch_probe;
@@ -130,6 +131,7 @@ pub(super) fn judge(
     let all_inputs = of_terminals.chain(drive_inputs.iter().map(|(_, input)| input));
     let numbers: Vec<usize> = all_inputs.filter_map(|input| input.number).collect();
     touch_probe::together(&mut judge, &drives, &numbers, machine);
+    gears::together(&mut judge, &terminals, machine);
     let reads = |nth: usize| drive_inputs.iter().any(|(of, _)| *of == nth);
     let drives = drives
         .into_iter()

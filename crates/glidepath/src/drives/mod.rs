@@ -8,6 +8,7 @@ mod device;
 mod encoder;
 mod feed_forward;
 mod found;
+mod gears;
 mod judge;
 mod raw;
 mod raw_device;

@@ -76,6 +76,29 @@ pub(super) struct RawSpindle {
     #[serde(default)]
     pub(super) load: bool,
     pub(super) orientation: Optional<RawOrientation>,
+    pub(super) gears: Optional<Vec<Spanned<RawGear>>>,
+    pub(super) shift: Optional<RawShift>,
+}
+
+/// A gear between the motor of the spindle and the spindle.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawGear {
+    pub(super) ratio: Spanned<f64>,
+    pub(super) max_rpm: Optional<f64>,
+    pub(super) ramp: Optional<f64>,
+    #[serde(default)]
+    pub(super) invert: bool,
+    pub(super) input: Spanned<i64>,
+}
+
+/// How gears are changed.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawShift {
+    pub(super) swing_rpm: Optional<f64>,
+    pub(super) swing_s: Optional<f64>,
+    pub(super) within_s: Optional<f64>,
 }
 
 /// How the spindle is turned to an angle.

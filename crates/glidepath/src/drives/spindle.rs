@@ -1,5 +1,6 @@
 //! The judgement of the drive of the spindle.
 
+use super::gears::{GearedDrive, gears};
 use super::raw_device::{Optional, RawOrientation, RawSpindle};
 use crate::config::{ConfigDiagnostic, Judge, Range};
 use glidepath_ethercat::{OrientationSettings, SpindleMode, SpindleSettings};
@@ -174,7 +175,7 @@ pub(super) fn spindle(judge: &mut Judge, raw: &RawSpindle) -> Option<SpindleSett
     } else {
         f64::from(i32::MAX)
     };
-    if max_rpm * units_per_rpm > most {
+    if raw.gears.is_none() && max_rpm * units_per_rpm > most {
         judge.diagnostics.push(ConfigDiagnostic {
             key: "device.spindle.max_rpm".to_owned(),
             message: format!(
@@ -185,7 +186,15 @@ pub(super) fn spindle(judge: &mut Judge, raw: &RawSpindle) -> Option<SpindleSett
         });
     }
     let orientation = orientation(judge, &raw.orientation, (mode, max_rpm));
+    let drive = GearedDrive {
+        units_per_rpm,
+        max_rpm,
+        ramp: ramp_rpm_per_s,
+        most,
+    };
+    let gears = gears(judge, raw, &drive);
     Some(SpindleSettings {
+        gears,
         orientation,
         tells_load: raw.load,
         mode: mode?,

@@ -1,12 +1,13 @@
 //! The words of `drives.toml`: objects, and what outputs obey.
 
-use glidepath_ethercat::{Quantity, Signal};
+use glidepath_ethercat::{MOST_GEARS, Quantity, Signal};
 
 /// Outputs of programs of each kind.
 const OUTPUTS: u32 = 64;
 /// What can be given.
 pub(super) const SIGNALS: &str = "give \"output 0\" to \"output 63\", \"spindle.on\", \"spindle.forward\", \
-                       \"spindle.reverse\", \"spindle.orient\", \"coolant.mist\" or \"coolant.flood\"";
+                       \"spindle.reverse\", \"spindle.orient\", \"spindle.gear 1\" to \"spindle.gear 5\", \
+                       \"coolant.mist\" or \"coolant.flood\"";
 pub(super) const QUANTITIES: &str =
     "give \"analog 0\" to \"analog 63\", \"spindle.speed\" or \"spindle.velocity\"";
 pub(super) const OBJECT: &str =
@@ -44,7 +45,11 @@ pub(super) fn signal(text: &str) -> Option<Signal> {
         "spindle.orient" => Signal::SpindleOrient,
         "coolant.mist" => Signal::Mist,
         "coolant.flood" => Signal::Flood,
-        text => Signal::Output(numbered(text, "output")?),
+        text => match numbered(text, "spindle.gear") {
+            Some(gear) if gear == 0 || gear as usize > MOST_GEARS => return None,
+            Some(gear) => Signal::SpindleGear(gear),
+            None => Signal::Output(numbered(text, "output")?),
+        },
     })
 }
 
@@ -80,9 +85,12 @@ mod tests {
     #[test]
     fn outputs_of_programs_have_numbers() {
         assert_eq!(signal("output 63"), Some(Signal::Output(63)));
+        assert_eq!(signal("spindle.gear 5"), Some(Signal::SpindleGear(5)));
         assert_eq!(quantity("analog 0"), Some(Quantity::Output(0)));
         for wrong in [
             "output 64",
+            "spindle.gear 0",
+            "spindle.gear 6",
             "output",
             "output -1",
             "output +1",

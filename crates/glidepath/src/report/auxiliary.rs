@@ -2,7 +2,7 @@
 
 use glidepath_link::{Auxiliary, Coolant, SpindleState};
 
-/// The spindle: `M3 S600`, `M3 S600 at 80 %`, `M5`.
+/// The spindle: `M3 S600`, `M42 M3 S600 at 80 %`, `M5`.
 #[must_use]
 pub fn spindle_words(record: &Auxiliary) -> String {
     let speed = record.spindle_speed;
@@ -10,14 +10,18 @@ pub fn spindle_words(record: &Auxiliary) -> String {
         100.0 => String::new(),
         percent => format!(" at {percent} %"),
     };
+    let gear = match record.spindle_gear {
+        0 => String::new(),
+        gear => format!("M{} ", 40 + gear),
+    };
     match record.spindle() {
-        Ok(SpindleState::Clockwise) => format!("M3 S{speed}{percent}"),
-        Ok(SpindleState::Counterclockwise) => format!("M4 S{speed}{percent}"),
+        Ok(SpindleState::Clockwise) => format!("{gear}M3 S{speed}{percent}"),
+        Ok(SpindleState::Counterclockwise) => format!("{gear}M4 S{speed}{percent}"),
         Ok(SpindleState::Oriented) => match record.orientation() {
             Some((deg, _)) => format!("M19 R{deg}"),
             None => "M19".to_owned(),
         },
-        _ => "M5".to_owned(),
+        _ => format!("{gear}M5"),
     }
 }
 

@@ -23,6 +23,8 @@ pub enum AnswerSource {
     SpindleStopped,
     /// The spindle stands at its angle, by feedback.
     SpindleOriented,
+    /// The gear that the spindle was told is in, by feedback.
+    SpindleInGear,
     /// A digital input, 0 to 63, by feedback.
     Input {
         /// Its number.
@@ -55,6 +57,7 @@ impl AnswerSource {
             Self::SpindleAtSpeed => spindle.contains(SpindleFlags::AT_SPEED),
             Self::SpindleStopped => spindle.contains(SpindleFlags::STOPPED),
             Self::SpindleOriented => spindle.contains(SpindleFlags::ORIENTED),
+            Self::SpindleInGear => spindle.contains(SpindleFlags::IN_GEAR),
             Self::Input { number, high } => (digital_in >> (number & 63) & 1 == 1) == high,
         }
     }
@@ -228,6 +231,8 @@ mod tests {
         assert!(!high.is_given(0b0111, quiet) && low.is_given(0b0111, quiet));
         assert!(AnswerSource::SpindleAtSpeed.is_given(0, SpindleFlags::AT_SPEED));
         assert!(!AnswerSource::SpindleAtSpeed.is_given(u64::MAX, SpindleFlags::STOPPED));
+        assert!(AnswerSource::SpindleInGear.is_given(0, SpindleFlags::IN_GEAR));
+        assert!(!AnswerSource::SpindleInGear.is_given(u64::MAX, SpindleFlags::STOPPED));
         assert!(!AnswerSource::Acknowledgement.is_given(u64::MAX, SpindleFlags::STOPPED));
     }
 }

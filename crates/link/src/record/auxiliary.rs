@@ -3,7 +3,7 @@
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
-use super::{CodeWords, EventId, Record, event};
+use super::{CodeWords, EventId, MOST_GEARS, Record, event};
 use glidepath_program::{Event, OrientWay};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -74,7 +74,7 @@ impl Coolant {
 /// subscriber gets the last one at once.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Auxiliary.v3")]
+#[type_name("glidepath.Auxiliary.v4")]
 pub struct Auxiliary {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -123,6 +123,10 @@ pub struct Auxiliary {
     pub spindle_turn: u32,
     /// 1 while a program keeps the override of the spindle from the operator (M49), else 0.
     pub spindle_override_locked: u32,
+    /// The gear that the spindle is to have, 1 to 5; 0 if nothing was said of it, and the one that is in stays.
+    pub spindle_gear: u32,
+    /// Must be zero.
+    pub reserved: u32,
 }
 
 impl Auxiliary {
@@ -188,6 +192,7 @@ impl Auxiliary {
                 self.spindle_angle = deg;
                 self.spindle_turn = OrientTurn::from(way).code();
             }
+            Event::SpindleGear(gear) => self.spindle_gear = gear,
             Event::SelectTool(tool) => self.prepared_tool = tool,
             Event::MCode(code) | Event::PassingCode(code) => self.take_m_code(code),
             Event::DigitalOutput { number, on } => {
@@ -244,7 +249,7 @@ impl Default for Auxiliary {
 }
 
 impl Record for Auxiliary {
-    const NAME: &'static str = "glidepath.Auxiliary.v3";
+    const NAME: &'static str = "glidepath.Auxiliary.v4";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -255,6 +260,9 @@ impl Record for Auxiliary {
         fields.range("spindle_angle", self.spindle_angle, 0.0, 360.0)?;
         fields.code::<OrientTurn>("spindle_turn", self.spindle_turn)?;
         fields.flags("spindle_override_locked", self.spindle_override_locked, 1)?;
+        let most = f64::from(MOST_GEARS);
+        fields.range("spindle_gear", self.spindle_gear.into(), 0.0, most)?;
+        fields.zero("reserved", self.reserved)?;
         self.awaited_words.check(Self::NAME)?;
         fields.all_finite("analog_out", &self.analog_out)?;
         self.awaited_event().map(|_| ())

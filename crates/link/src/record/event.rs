@@ -13,6 +13,9 @@ use glidepath_program::{
 };
 use iceoryx2::prelude::ZeroCopySend;
 
+/// Gears of a spindle, as many as there are words for them.
+pub const MOST_GEARS: u32 = 5;
+
 coded! {
     /// The kind of an event; its value is the speed, tool, M code or value.
     pub enum EventKind {
@@ -51,6 +54,8 @@ coded! {
         /// The angle of the spindle for the M19 that comes next; the value is the angle, degrees, and
         /// the number the way there: 0 the shorter one, 1 clockwise, 2 counterclockwise.
         SpindleAngle = 15,
+        /// The gear that the spindle is to have, 1 to 5; the M code of that gear comes next.
+        SpindleGear = 16,
     }
 }
 
@@ -228,6 +233,7 @@ fn kind_and_value(event: Event) -> (EventKind, f64) {
     match event {
         Event::SpindleSpeed(speed) => (EventKind::SpindleSpeed, speed),
         Event::SpindleAngle { deg, .. } => (EventKind::SpindleAngle, deg),
+        Event::SpindleGear(gear) => (EventKind::SpindleGear, f64::from(gear)),
         Event::SelectTool(tool) => (EventKind::SelectTool, f64::from(tool)),
         Event::MCode(code) => (EventKind::MCode, f64::from(code)),
         Event::PassingCode(code) => (EventKind::PassingCode, f64::from(code)),
@@ -332,6 +338,10 @@ fn event_of(
                 .map(|()| value)?,
             way: way_of(fields, number)?,
         },
+        EventKind::SpindleGear => {
+            fields.range(field, value, 1.0, MOST_GEARS.into())?;
+            Event::SpindleGear(whole()?)
+        }
         EventKind::SelectTool => Event::SelectTool(whole()?),
         EventKind::MCode => Event::MCode(whole()?),
         EventKind::PassingCode => Event::PassingCode(whole()?),

@@ -65,6 +65,8 @@ coded! {
         Bus = 3,
         /// The drive of its spindle, which reports a fault or has no power.
         Spindle = 4,
+        /// The gear of its spindle: it is not in.
+        Gear = 5,
     }
 }
 
@@ -92,7 +94,10 @@ impl SpindleFlags {
     /// [`Feedback::spindle_load`] is measured.
     pub const LOAD: Self = Self(1 << 7);
 
-    pub(super) const KNOWN: u32 = (1 << 8) - 1;
+    /// The gear that it was told is in (M41 to M45).
+    pub const IN_GEAR: Self = Self(1 << 8);
+
+    pub(super) const KNOWN: u32 = (1 << 9) - 1;
 
     /// True if all of `other` are set.
     #[must_use]
@@ -184,7 +189,8 @@ pub struct Feedback {
     /// interpolator is reset, or another interpolator is there; nothing that stopped by it begins again before.
     pub loss: u32,
     /// Of setpoints, how long none came, s. Of a device, its place in the line from 0, or -1 where none
-    /// says that it is missing. Of a spindle the number of its fault, 0 without power. 0 otherwise.
+    /// says that it is missing. Of a spindle the number of its fault, 0 without power. Of
+    /// a gear its number, 0 where nobody said which one is to be in. 0 otherwise.
     pub loss_value: f64,
     /// The inputs that are latched.
     pub latch: [Latch; LATCHES],

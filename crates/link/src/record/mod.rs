@@ -42,7 +42,7 @@ pub use check::{RecordError, decode};
 pub use code_words::CodeWords;
 pub use command::{COMMAND_KINDS, Command, CommandKind, CommandRequest};
 pub use command_reply::{CommandOutcome, CommandRefusal, CommandReply};
-pub use event::{EventKind, EventRecord};
+pub use event::{EventKind, EventRecord, MOST_GEARS};
 pub use event_id::EventId;
 pub use feedback::{DriveState, Feedback, LATCHES, Latch, LatchKind, Loss, SpindleFlags};
 pub use frame::{PERIOD_NS_MAX, SetpointFrame};

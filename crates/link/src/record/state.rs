@@ -212,6 +212,8 @@ pub enum FaultCause {
     BusLost,
     /// The drive of the spindle reports a fault, or has no power.
     SpindleDrive,
+    /// The gear in which the spindle is to turn is not in.
+    SpindleGear,
 }
 
 impl FaultCause {
@@ -244,6 +246,7 @@ impl FaultCause {
             Self::DeviceLost => 20,
             Self::BusLost => 21,
             Self::SpindleDrive => 22,
+            Self::SpindleGear => 23,
             Self::Frame(refusal) => Self::FRAME + refusal.code(),
         }
     }
@@ -274,6 +277,7 @@ impl FaultCause {
             20 => Some(Self::DeviceLost),
             21 => Some(Self::BusLost),
             22 => Some(Self::SpindleDrive),
+            23 => Some(Self::SpindleGear),
             Self::FRAME.. => match FrameRefusal::from_code(code - Self::FRAME) {
                 Some(refusal) => Some(Self::Frame(refusal)),
                 None => None,
@@ -291,6 +295,7 @@ impl FaultCause {
             Loss::Device => Some(Self::DeviceLost),
             Loss::Bus => Some(Self::BusLost),
             Loss::Spindle => Some(Self::SpindleDrive),
+            Loss::Gear => Some(Self::SpindleGear),
         }
     }
 
@@ -300,7 +305,11 @@ impl FaultCause {
     pub const fn is_loss(self) -> bool {
         matches!(
             self,
-            Self::SetpointsLost | Self::DeviceLost | Self::BusLost | Self::SpindleDrive
+            Self::SetpointsLost
+                | Self::DeviceLost
+                | Self::BusLost
+                | Self::SpindleDrive
+                | Self::SpindleGear
         )
     }
 

@@ -47,6 +47,7 @@ impl FaultCause {
             Self::DeviceLost => "a device on the bus of the drives is lost",
             Self::BusLost => "the bus of the drives was lost",
             Self::SpindleDrive => "the drive of the spindle has failed",
+            Self::SpindleGear => "the gear of the spindle is not in",
         }
     }
 
@@ -121,6 +122,9 @@ impl FaultCause {
                  `glidepath enable`"
             }
             Self::SpindleDrive => "mend what the drive reports; `glidepath reset`",
+            Self::SpindleGear => {
+                "look at the gearbox, and at the input that tells the gear; `glidepath reset`, then M41 to M45"
+            }
         }
     }
 
@@ -162,7 +166,8 @@ impl FaultCause {
             | Self::SetpointsLost
             | Self::DeviceLost
             | Self::BusLost
-            | Self::SpindleDrive => "",
+            | Self::SpindleDrive
+            | Self::SpindleGear => "",
         }
     }
 
@@ -267,6 +272,10 @@ impl FaultReport {
             write!(f, ": its number {value:.0}")
         } else if cause == FaultCause::SpindleDrive {
             f.write_str(": it has no power")
+        } else if cause == FaultCause::SpindleGear && value > 0.0 {
+            write!(f, ": gear {value:.0} (M{:.0})", 40.0 + value)
+        } else if cause == FaultCause::SpindleGear {
+            f.write_str(": inputs tell none, and no program has named one")
         } else {
             Ok(())
         }

@@ -213,7 +213,7 @@ fn frames_out_of_range_are_refused() {
         bad.to_frame(),
         Err(RecordError::UnknownFlags { bits: 256, .. })
     ));
-    for code in [0, 16] {
+    for code in [0, 17] {
         let bad = with_events(good, &[EventRecord { kind: code, ..tool }]);
         assert!(matches!(
             bad.to_frame(),
@@ -249,7 +249,7 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_setpoint(), |s| s.state = 0),
         refused(good_setpoint(), |s| s.state = 17),
         refused(good_status(), |s| s.state = 0),
-        refused(good_status(), |s| s.fault = 23),
+        refused(good_status(), |s| s.fault = 24),
         refused(good_status(), |s| s.fault_axis = 10),
         refused(good_status(), |s| s.fault_axis = u32::MAX),
         refused(good_status(), |s| s.end_of_epoch = 6),
@@ -259,7 +259,7 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_status(), |s| s.mode = 6),
         refused(Feedback::zeroed(), |f| f.drive_state[8] = 9),
         refused(Feedback::zeroed(), |f| f.latch[3].kind = 5),
-        refused(Feedback::zeroed(), |f| f.loss = 5),
+        refused(Feedback::zeroed(), |f| f.loss = 6),
         refused(JogDemand::zeroed(), |j| j.mode = 5),
         refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 0),
         refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 24),
@@ -277,14 +277,14 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_setpoint(), |s| s.flags = 256),
         refused(good_status(), |s| s.grants = 64),
         refused(good_status(), |s| s.unanswered = 2),
-        refused(good_status(), |s| s.spindle_flags = 256),
+        refused(good_status(), |s| s.spindle_flags = 512),
         refused(good_status(), |s| s.awaited_words.given = 4),
         refused(good_status(), |s| s.homed = 1 << 9),
         refused(good_setpoint(), |s| s.enable = 1 << 9),
         refused(good_setpoint(), |s| s.home = 1 << 9),
         refused(Feedback::zeroed(), |f| f.joints = 1 << 9),
         refused(Feedback::zeroed(), |f| f.home_switch = 1 << 31),
-        refused(Feedback::zeroed(), |f| f.spindle_flags = 256),
+        refused(Feedback::zeroed(), |f| f.spindle_flags = 512),
         refused(JogDemand::zeroed(), |j| j.mask = 1 << 9),
         refused(CommandRequest::new(1, 1, Command::Home(1)), |c| {
             c.joints = 1 << 9;
@@ -294,6 +294,7 @@ fn unknown_codes_and_bits_are_refused() {
     }
     for error in [
         refused(good_setpoint(), |s| s.fraction = 1.5),
+        refused(Auxiliary::default(), |a| a.spindle_gear = 6),
         refused(good_setpoint(), |s| s.effective_override = -0.1),
         refused(good_status(), |s| s.feed_override = OVERRIDE_MAX + 0.1),
         refused(good_status(), |s| s.adaptive_feed = 1.01),
@@ -359,9 +360,9 @@ fn codes_are_consecutive_and_known() {
     in_sequence(MotionMode::ALL.iter().map(|code| code.code()), 0, 5);
     in_sequence(JogMode::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(LatchKind::ALL.iter().map(|code| code.code()), 0, 4);
-    in_sequence(Loss::ALL.iter().map(|code| code.code()), 0, 4);
+    in_sequence(Loss::ALL.iter().map(|code| code.code()), 0, 5);
     in_sequence(DriveState::ALL.iter().map(|code| code.code()), 0, 8);
-    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 15);
+    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 16);
     assert_eq!(FrameRefusal::ALL.len(), FRAME_REFUSALS);
     assert!(
         FrameRefusal::ALL
@@ -372,7 +373,7 @@ fn codes_are_consecutive_and_known() {
     let faults: Vec<u32> = (0..0x200)
         .filter(|code| FaultCause::from_code(*code).is_some())
         .collect();
-    assert_eq!(faults, (1..=22).chain(0x101..=0x10c).collect::<Vec<_>>());
+    assert_eq!(faults, (1..=23).chain(0x101..=0x10c).collect::<Vec<_>>());
     for code in faults {
         assert_eq!(FaultCause::from_code(code).unwrap().code(), code);
     }

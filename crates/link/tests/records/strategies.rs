@@ -25,6 +25,7 @@ pub(crate) fn vector() -> impl Strategy<Value = AxisVector> {
 pub(crate) fn event() -> impl Strategy<Value = Event> {
     prop_oneof![
         finite().prop_map(Event::SpindleSpeed),
+        (1..=5_u32).prop_map(Event::SpindleGear),
         (0.0..=360.0, 0..3_usize).prop_map(|(deg, way)| Event::SpindleAngle {
             deg,
             way: [

@@ -18,6 +18,10 @@ pub(crate) fn restoring(now: &Auxiliary, expected: &Auxiliary) -> Vec<Event> {
     if now.prepared_tool != expected.prepared_tool {
         tell(&mut now, Event::SelectTool(expected.prepared_tool));
     }
+    if now.spindle_gear != expected.spindle_gear && expected.spindle_gear != 0 {
+        tell(&mut now, Event::SpindleGear(expected.spindle_gear));
+        tell(&mut now, Event::MCode(40 + expected.spindle_gear));
+    }
     if (now.spindle_speed - expected.spindle_speed).abs() > 0.0 {
         tell(&mut now, Event::SpindleSpeed(expected.spindle_speed));
     }

@@ -1,7 +1,7 @@
 //! One life of an interpolator, and what plans for it.
 
 use super::setup::{PERIOD_NS, limits};
-use glidepath_gcode::{Connections, MCodes, Options, Threading};
+use glidepath_gcode::{Connections, Dialect, GearSpeeds, Gears, MCodes, Options, Threading};
 use glidepath_geometry::AxisVector;
 use glidepath_interpolator::Served;
 use glidepath_link::{
@@ -19,12 +19,17 @@ use std::sync::Arc;
 pub(crate) fn plan(text: &str, start: AxisVector, epoch: u64) -> Vec<SetpointFrame> {
     let mut m_codes = MCodes::default();
     m_codes.declare(19, 19);
+    let speeds = [(0.0, 1000.0), (100.0, 6000.0)];
+    let speeds = speeds.map(|(least, most)| GearSpeeds { least, most });
+    let gears = Gears::new(speeds.to_vec(), false).unwrap();
+    gears.declare(Dialect::LinuxCnc, &mut m_codes);
     let options = Options {
         start,
         connections: Connections::Real,
         probing_v: Some(20.0),
         threading: Some(Threading::new(limits(), 0.004)),
         orients: true,
+        gears: Arc::new(gears),
         m_codes: Arc::new(m_codes),
         ..Options::default()
     };

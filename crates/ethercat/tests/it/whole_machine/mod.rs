@@ -149,6 +149,7 @@ fn terminals() -> Vec<TerminalSettings> {
                 max_rpm: 8000.0,
                 ramp_rpm_per_s: RAMP,
                 at_speed_r: NEAR,
+                gears: None,
                 orientation: None,
                 tells_load: false,
                 mapping: Mapping::Written,

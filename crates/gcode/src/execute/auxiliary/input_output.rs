@@ -30,18 +30,7 @@ impl Interpreter {
     /// M19 and M62 to M68.
     pub(crate) fn input_output(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
         self.orient(block, out)?;
-        if let Some(Coded { code, .. }) = block.codes.user {
-            for (letter, word) in [(b'P', CodeWord::P), (b'Q', CodeWord::Q)] {
-                if let Some(value) = block.get(letter) {
-                    self.push(out, ItemKind::Event(Event::CodeWord { word, value }));
-                }
-            }
-            self.push(out, ItemKind::Event(Event::MCode(code)));
-            let more = block.codes.more_of_user.into_iter();
-            for code in more.filter(|code| *code != 0) {
-                self.push(out, ItemKind::Event(Event::MCode(code.into())));
-            }
-        }
+        self.machine_codes(block, out);
         let Some(Coded { code, span }) = block.codes.input_output else {
             return Ok(());
         };
@@ -73,6 +62,27 @@ impl Interpreter {
         };
         self.push(out, ItemKind::Event(event));
         Ok(())
+    }
+
+    /// M codes of the machine, the first with the words of the block; those of gears come in front of S.
+    fn machine_codes(&mut self, block: &Block, out: &mut Vec<Item>) {
+        let Some(Coded { code, .. }) = block.codes.user else {
+            return;
+        };
+        let more = block.codes.more_of_user.map(u32::from);
+        let mut has_words = false;
+        for code in core::iter::once(code).chain(more) {
+            if code == 0 || self.is_gear_word(code) {
+                continue;
+            }
+            for (letter, word) in [(b'P', CodeWord::P), (b'Q', CodeWord::Q)] {
+                if let Some(value) = block.get(letter).filter(|_| !has_words) {
+                    self.push(out, ItemKind::Event(Event::CodeWord { word, value }));
+                }
+            }
+            has_words = true;
+            self.push(out, ItemKind::Event(Event::MCode(code)));
+        }
     }
 
     /// The words of M66.

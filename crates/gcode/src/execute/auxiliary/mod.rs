@@ -3,6 +3,7 @@
 
 mod coordinate_system;
 mod feed;
+mod gear;
 mod input_output;
 pub(crate) mod input_wait;
 mod non_modal;

@@ -17,11 +17,12 @@ use crate::syntax::word_check::{missing, negative};
 impl Interpreter {
     /// S, T, tool change, spindle, coolant, overrides, inputs and outputs, dwell.
     pub(crate) fn auxiliary(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
-        let speed = self.state.spindle.speed;
+        let before = self.state.spindle;
+        self.change_gear(block, out)?;
         self.spindle_speed(block, out)?;
         self.select_tool(block, out)?;
         let codes = &block.codes;
-        self.tell_speed_at_rest(block, speed, out);
+        self.tell_speed_at_rest(block, &before, out);
         if let Some(Coded { code, .. }) = codes.spindle {
             self.turn_spindle(match code {
                 3 => Some(SpindleDirection::Clockwise),
@@ -29,6 +30,7 @@ impl Interpreter {
                 _ => None,
             });
         }
+        self.check_gear_speed(block)?;
         if let Some(Coded { code, .. }) = codes.coolant {
             let coolant = &mut self.state.coolant;
             match code {

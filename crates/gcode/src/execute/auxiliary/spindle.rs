@@ -167,14 +167,21 @@ impl Interpreter {
         }
     }
 
-    /// A new speed of a spindle that turns is told at rest, if it is to be waited for. With G96 the
+    /// A new speed of a spindle that turns, or the same in another gear, is told at rest, if it is to be waited
+    /// for. With G96 the
     /// speed follows the tool, and is not waited for.
-    pub(crate) fn tell_speed_at_rest(&mut self, block: &Block, before: f64, out: &mut Vec<Item>) {
+    pub(crate) fn tell_speed_at_rest(
+        &mut self,
+        block: &Block,
+        before: &Spindle,
+        out: &mut Vec<Item>,
+    ) {
         let Some(direction) = self.state.spindle.turning else {
             return;
         };
         let spindle = &self.state.spindle;
-        let is_new = (spindle.speed - before).abs() > 0.0 && spindle.surface.is_none();
+        let is_other = (spindle.speed - before.speed).abs() > 0.0;
+        let is_new = is_other && spindle.surface.is_none() || spindle.gear != before.gear;
         let turns = !spindle.is_axis;
         if self.options.waits_for_speed && is_new && turns && block.codes.spindle.is_none() {
             self.push(out, ItemKind::Event(Event::MCode(direction.code())));
@@ -182,6 +189,7 @@ impl Interpreter {
     }
 
     fn tell_speed(&mut self, speed: f64, out: &mut Vec<Item>) {
+        self.choose_gear(speed, out);
         self.state.spindle.speed = speed;
         self.push(out, ItemKind::Event(Event::SpindleSpeed(speed)));
     }
@@ -213,7 +221,8 @@ impl Interpreter {
         let speed = surface.speed / round_mm.max(1e-6);
         let spindle = &self.state.spindle;
         let most = spindle.most.unwrap_or(MAX_NUMBER);
-        Some(spindle.in_range(speed.min(surface.most).min(most).min(MAX_NUMBER)))
+        let speed = spindle.in_range(speed.min(surface.most).min(most).min(MAX_NUMBER));
+        Some(self.in_gear(speed))
     }
 
     /// After a move in G96: tells the spindle's speed if it has changed.

@@ -53,6 +53,12 @@ pub(crate) struct Spindle {
     /// Fewest revolutions a minute of a spindle that turns (G25 of SINUMERIK).
     #[serde(default)]
     pub(crate) lower: Option<f64>,
+    /// The gear that was put in last, from 1; 0: nothing was said of it.
+    #[serde(default)]
+    pub(crate) gear: u32,
+    /// S chooses the gear (M40 of SINUMERIK, or the machine's own choice).
+    #[serde(default)]
+    pub(crate) chooses_gear: bool,
     /// The next tapping cycle is rigid (M29).
     pub(crate) is_rigid: bool,
 }

@@ -73,12 +73,7 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
     let mut master = TimedWire::new(PacketWire::open(MASTER)?, &sent_ns);
     let mut there = PacketWire::open(DRIVES)?;
     let mut segment = Segment::new_at(&emulated, master.now_ns());
-    if let Some(encoder) = emulated_terminals::encoder(&settings.terminals) {
-        segment.add_encoder(encoder);
-    }
-    for encoder in emulated_terminals::load_encoders(&settings.drives, &settings.terminals) {
-        segment.add_load_encoder(encoder);
-    }
+    add_mechanics(&mut segment, &settings);
     let record = args.emulated_record.as_deref();
     if record.is_some() {
         segment.keep_records();
@@ -121,6 +116,19 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
     }
     bridge::report(args, &counts);
     Ok(interrupt.exit())
+}
+
+/// Puts encoders and gearbox of the file on what turns them.
+fn add_mechanics(segment: &mut Segment, settings: &Settings) {
+    if let Some(encoder) = emulated_terminals::encoder(&settings.terminals) {
+        segment.add_encoder(encoder);
+    }
+    if let Some(gearbox) = emulated_terminals::gearbox(&settings.terminals) {
+        segment.add_gearbox(gearbox);
+    }
+    for encoder in emulated_terminals::load_encoders(&settings.drives, &settings.terminals) {
+        segment.add_load_encoder(encoder);
+    }
 }
 
 /// Something else stands at inputs.

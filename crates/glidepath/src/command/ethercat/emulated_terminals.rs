@@ -1,10 +1,11 @@
 //! Emulated devices that are no drives: each has what the file names, and nothing to set.
 
 use glidepath_emulator::{
-    Channels, ClockKind, DriveSettings as Emulated, Encoder, LoadEncoder, SpindleMotor,
+    Channels, ClockKind, DriveSettings as Emulated, Encoder, GearPins, Gearbox, LoadEncoder,
+    SpindleMotor,
 };
 use glidepath_ethercat::{
-    At, DriveSettings, JointEncoderSettings, Mapping, SpindleMode, SpindleSettings,
+    At, DriveSettings, Gear, JointEncoderSettings, Mapping, Signal, SpindleMode, SpindleSettings,
     TerminalSettings,
 };
 
@@ -14,18 +15,16 @@ const MOST_BITS: u32 = 248;
 const COUNTS_PER_REV: f64 = 10_000.0;
 /// Where in a revolution the index of an encoder is.
 const INDEX_AT: f64 = 0.25;
+/// How long an emulated gearbox takes to change a gear, ns, and how fast its motor may turn meanwhile, rev/s.
+const GEAR_NS: u64 = 300_000_000;
+const GEAR_MOST_V: f64 = 20.0;
 /// Counts of a number of 16 bits.
 const SHORT: u32 = 0xffff;
 
 /// A device that has what a file names.
 pub(super) fn emulated(settings: &TerminalSettings) -> Emulated {
     let inputs = input_maps(settings);
-    let digital = settings.outputs.iter().map(|output| output.at);
-    let analog = settings.analog_outputs.iter().map(|output| {
-        let bits = if output.full_counts > SHORT { 32 } else { 16 };
-        (output.at, bits)
-    });
-    let outputs = maps(digital.collect(), analog.collect());
+    let outputs = output_maps(settings);
     if let Some(spindle) = &settings.spindle {
         return emulated_spindle(settings, spindle);
     }
@@ -64,6 +63,9 @@ fn identity(settings: &TerminalSettings, like: &Emulated) -> [u32; 4] {
 /// The drive of a spindle that is twice as strong as its ramp takes, and runs out within seconds.
 fn emulated_spindle(settings: &TerminalSettings, spindle: &SpindleSettings) -> Emulated {
     let like = Emulated::default();
+    let gears = spindle.gears.iter().flat_map(|gears| gears.all());
+    let of_motor = gears.map(|(_, gear)| gear.ratio * gear.ramp_rpm_per_s);
+    let ramp = of_motor.fold(spindle.ramp_rpm_per_s, f64::max);
     let counts_per_rev = match spindle.mode {
         SpindleMode::CyclicVelocity | SpindleMode::ProfileVelocity => 60.0 * spindle.units_per_rpm,
         SpindleMode::Velocity => COUNTS_PER_REV,
@@ -73,7 +75,7 @@ fn emulated_spindle(settings: &TerminalSettings, spindle: &SpindleSettings) -> E
         name: "SPINDLE".to_owned(),
         spindle: Some(SpindleMotor {
             counts_per_rev,
-            torque_rpm_per_s: 2.0 * spindle.ramp_rpm_per_s,
+            torque_rpm_per_s: 2.0 * ramp,
             coast_t: 2.0,
         }),
         ..like
@@ -94,6 +96,42 @@ pub(super) fn encoder(terminals: &[TerminalSettings]) -> Option<Encoder> {
         spindle: (place(&|device| device.spindle.is_some())?, 0),
         counts_per_rev: f64::from(settings.counts_per_rev),
         index_at: INDEX_AT,
+    })
+}
+
+/// The gearbox of the spindle of a file, where each gear has an output and an input. The first gear is in.
+pub(super) fn gearbox(terminals: &[TerminalSettings]) -> Option<Gearbox> {
+    let spindle = terminals.iter().find(|device| device.spindle.is_some())?;
+    let gears = spindle.spindle?.gears?;
+    let pins = |(number, gear): (u32, &Gear)| {
+        let output = terminals.iter().find_map(|device| {
+            let mut outputs = device.outputs.iter();
+            let output = outputs.find(|output| output.from == Signal::SpindleGear(number))?;
+            Some((device.position, output_place(device, output.at)?))
+        });
+        let input = terminals.iter().find_map(|device| {
+            let mut inputs = device.inputs.iter();
+            let input = inputs.find(|input| input.number == Some(gear.input))?;
+            Some((device.position, input_place(device, input.at)?))
+        });
+        Some(GearPins {
+            ratio: if gear.is_inverted {
+                -gear.ratio
+            } else {
+                gear.ratio
+            },
+            output: output?,
+            input: input?,
+        })
+    };
+    let gears: Option<Vec<GearPins>> = gears.all().map(pins).collect();
+    Some(Gearbox {
+        spindle: (spindle.position, 0),
+        gears: gears?,
+        first: Some(0),
+        change_ns: GEAR_NS,
+        most_v: GEAR_MOST_V,
+        needs_motion: false,
     })
 }
 
@@ -131,7 +169,19 @@ pub(super) fn input_place(settings: &TerminalSettings, at: At) -> Option<usize> 
         At::Bit(bit) => return Some(bit as usize),
         At::Object { index, sub } => (u32::from(index), u32::from(sub)),
     };
-    let entries = input_maps(settings);
+    place_in(&input_maps(settings), (index, sub))
+}
+
+/// Where it has an output, bits.
+fn output_place(settings: &TerminalSettings, at: At) -> Option<usize> {
+    match at {
+        At::Bit(bit) => Some(bit as usize),
+        At::Object { index, sub } => place_in(&output_maps(settings), (index.into(), sub.into())),
+    }
+}
+
+/// Where an object is in maps, bits.
+fn place_in(entries: &[Vec<u32>], (index, sub): (u32, u32)) -> Option<usize> {
     let mut bits = 0;
     for entry in entries.iter().flatten() {
         if entry >> 8 == index << 8 | sub {
@@ -140,6 +190,15 @@ pub(super) fn input_place(settings: &TerminalSettings, at: At) -> Option<usize> 
         bits += (entry & 0xff) as usize;
     }
     None
+}
+
+fn output_maps(settings: &TerminalSettings) -> Vec<Vec<u32>> {
+    let digital = settings.outputs.iter().map(|output| output.at);
+    let analog = settings.analog_outputs.iter().map(|output| {
+        let bits = if output.full_counts > SHORT { 32 } else { 16 };
+        (output.at, bits)
+    });
+    maps(digital.collect(), analog.collect())
 }
 
 fn input_maps(settings: &TerminalSettings) -> Vec<Vec<u32>> {

@@ -130,7 +130,8 @@ fn fault(status: &Status) -> Option<(Alarm, String)> {
         FaultCause::AuxTimeout
         | FaultCause::AuxFailed
         | FaultCause::SpindleSpeed
-        | FaultCause::SpindleDrive => Alarm::Spindle,
+        | FaultCause::SpindleDrive
+        | FaultCause::SpindleGear => Alarm::Spindle,
         FaultCause::Drive | FaultCause::DeviceLost | FaultCause::BusLost => Alarm::Motor,
         FaultCause::ProbeContact => Alarm::ProbeAtFirst,
         FaultCause::Frame(_)

@@ -66,6 +66,7 @@ fn word(event: Event) -> String {
     match event {
         Event::SpindleSpeed(speed) => format!("S{speed}"),
         Event::SpindleAngle { deg, .. } => format!("the spindle's angle {deg}"),
+        Event::SpindleGear(gear) => format!("gear {gear} of the spindle"),
         Event::SelectTool(tool) => format!("T{tool}"),
         Event::MCode(number) | Event::PassingCode(number) | Event::ProgramStop(number) => {
             format!("M{number}")

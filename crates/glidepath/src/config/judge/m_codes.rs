@@ -103,6 +103,7 @@ impl Judge {
             "spindle-at-speed" => Some(AnswerSource::SpindleAtSpeed),
             "spindle-stopped" => Some(AnswerSource::SpindleStopped),
             "spindle-oriented" => Some(AnswerSource::SpindleOriented),
+            "spindle-in-gear" => Some(AnswerSource::SpindleInGear),
             other => input(other),
         };
         if answer.is_none() {
@@ -111,7 +112,8 @@ impl Judge {
                 message: format!("{key} = \"{}\" is not known", done.as_ref()),
                 help: Some(
                     "give \"acknowledge\", \"spindle-at-speed\", \"spindle-stopped\", \
-                     \"spindle-oriented\", \"input 3 high\", \"input 3 low\" or \"nothing\""
+                     \"spindle-oriented\", \"spindle-in-gear\", \"input 3 high\", \"input 3 low\" or \
+                     \"nothing\""
                         .to_owned(),
                 ),
                 span: Some(done.span()),

@@ -7,6 +7,7 @@ mod axes;
 mod axis_share;
 mod compensation;
 mod feedback;
+mod gears;
 mod home;
 mod horizon;
 mod interpolator;
@@ -38,6 +39,7 @@ use glidepath_geometry::Axis;
 use glidepath_kinematics::Mechanism;
 use home::HomeSurroundings;
 use spindle::SpindleSurroundings;
+use std::sync::Arc;
 
 /// Judges every value, beside what was found wrong with the text before.
 ///
@@ -89,18 +91,18 @@ pub(super) fn judge(
     let expects_feedback = feedback.is_expected;
     let m_codes = judge.m_codes(raw.m_codes);
     let spindle_override = judge.spindle_override(&raw.spindle);
-    let spindle = judge.spindle(
-        raw.spindle,
-        &SpindleSurroundings {
-            is_axes,
-            axes: &names,
-            m_codes: &m_codes,
-            has_drives: expects_feedback,
-        },
-    );
+    let of_spindle = SpindleSurroundings {
+        is_axes,
+        axes: &names,
+        m_codes: &m_codes,
+        has_drives: expects_feedback,
+    };
+    let gears = judge.gears(&raw.spindle, &of_spindle);
+    let spindle = judge.spindle(raw.spindle, &of_spindle);
     let program = judge.program(raw.program, &mechanism, expects_feedback);
     let config = MachineConfig {
         spindle_override,
+        gears: Arc::new(gears),
         mechanism,
         home_of_joints,
         compensation,

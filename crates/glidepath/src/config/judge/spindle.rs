@@ -23,7 +23,7 @@ pub(super) struct SpindleSurroundings<'a> {
 
 impl SpindleSurroundings<'_> {
     /// Whether the machine waits for a code where it stands.
-    fn is_awaited(&self, code: u32) -> bool {
+    pub(super) fn is_awaited(&self, code: u32) -> bool {
         let mut rules = self.m_codes.iter();
         let rule =
             rules.find(|rule| (rule.m_code_wait.first..=rule.m_code_wait.last).contains(&code));
@@ -178,7 +178,7 @@ impl Judge {
         Some(axis)
     }
 
-    fn spindle_finding(
+    pub(super) fn spindle_finding(
         &mut self,
         key: &str,
         span: core::ops::Range<usize>,

@@ -245,7 +245,7 @@ pub(super) const M_CODES: &[Key] = &[
         "m_codes.M6.done",
         Takes::Text {
             rule: "\"acknowledge\", \"spindle-at-speed\", \"spindle-stopped\", \
-                   \"spindle-oriented\", \"input 3 high\", \"input 3 low\" or \"nothing\"",
+                   \"spindle-oriented\", \"spindle-in-gear\", \"input 3 high\", \"input 3 low\" or \"nothing\"",
         },
         LeftOut::Means("\"acknowledge\""),
         "the motion does not pass the code before this; a code or a range that programs do not \

@@ -56,6 +56,36 @@ pub(super) const SPINDLE: &[Key] = &[
          are planned for a spindle that turns that much faster than programmed",
     ),
     key(
+        "spindle.gear_max",
+        Takes::Numbers {
+            min: 1.0,
+            max: 1e6,
+            unit: "rev/min",
+        },
+        LeftOut::Means("no gears, and M41 to M45 are what a table [m_codes.M41] makes of them"),
+        "the gears of the spindle: the highest speed of each, up to five, that of M41 first. A higher S is refused. \
+         With feedback of drives each gear takes a table [m_codes.M41] that says when it is in",
+    ),
+    key(
+        "spindle.gear_min",
+        Takes::Numbers {
+            min: 0.0,
+            max: 1e6,
+            unit: "rev/min",
+        },
+        LeftOut::Means("0 in each gear"),
+        "the lowest speed of the spindle in each gear, in the order of gear_max. A lower S is refused",
+    ),
+    key(
+        "spindle.gear_choice",
+        Takes::Choice {
+            of: &["words", "speed"],
+        },
+        LeftOut::Value("\"words\""),
+        "who chooses the gear: \"words\": M41 to M45, and S behind M40 of a SINUMERIK. \"speed\": S, in every program \
+         until it has one of these words",
+    ),
+    key(
         "spindle.overtravel",
         number(0.1, 100.0, "revolutions"),
         LeftOut::Value("10"),

@@ -5,6 +5,7 @@ mod devices;
 mod drive_inputs;
 mod encoder;
 mod feed_forward;
+mod gears;
 mod joint_encoders;
 mod touch_probe;
 
@@ -59,7 +60,12 @@ fn found(position: usize) -> Found {
 
 /// What is wrong with a text: line and message of each.
 fn wrong(text: &str) -> Vec<(usize, String)> {
-    let error = parse("drives.toml", text, &machine("none")).unwrap_err();
+    told(text, &machine("none"))
+}
+
+/// The same on a machine.
+fn told(text: &str, machine: &MachineConfig) -> Vec<(usize, String)> {
+    let error = parse("drives.toml", text, machine).unwrap_err();
     let diagnostics = error.diagnostics().iter();
     diagnostics
         .map(|told| {

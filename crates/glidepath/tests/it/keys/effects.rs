@@ -66,6 +66,10 @@ fn machine_for(key: &str) -> Table {
         );
         put(&mut machine, &format!("{table}.input"), Value::Integer(1));
     }
+    if key.starts_with("spindle.gear_") && key != "spindle.gear_max" {
+        let most = Value::Array(vec![Value::Float(1e6); 3]);
+        put(&mut machine, "spindle.gear_max", most);
+    }
     if table == "spindle" {
         put(&mut machine, "spindle.encoder", Value::Boolean(true));
     }

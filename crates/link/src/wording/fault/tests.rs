@@ -6,7 +6,7 @@ use crate::record::Text;
 #[test]
 fn faults_have_texts_of_their_own_and_say_what_clears_them() {
     let all: Vec<FaultCause> = FaultCause::all().collect();
-    assert_eq!(all.len(), 22 + FrameRefusal::ALL.len());
+    assert_eq!(all.len(), 23 + FrameRefusal::ALL.len());
     for (i, cause) in all.iter().enumerate() {
         assert!(all[..i].iter().all(|other| other.text() != cause.text()));
         assert!(cause.remedy().contains("`glidepath "), "{cause:?}");
@@ -129,6 +129,7 @@ fn causes_of_losses_are_those_of_feedback() {
         FaultCause::DeviceLost,
         FaultCause::BusLost,
         FaultCause::SpindleDrive,
+        FaultCause::SpindleGear,
     ];
     assert_eq!(causes[0], None);
     assert_eq!(causes[1..], expected.map(Some));

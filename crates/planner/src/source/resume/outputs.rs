@@ -13,6 +13,7 @@ pub(crate) struct SaidOutputs {
     has_told_coolant: bool,
     has_selected_tool: bool,
     has_changed_tool: bool,
+    has_changed_gear: bool,
 }
 
 impl SaidOutputs {
@@ -29,6 +30,7 @@ impl SaidOutputs {
         self.has_told_coolant |= matches!(event, Event::MCode(7..=9) | Event::PassingCode(7..=9));
         self.has_selected_tool |= matches!(event, Event::SelectTool(_));
         self.has_changed_tool |= event == Event::MCode(6);
+        self.has_changed_gear |= matches!(event, Event::SpindleGear(_));
     }
 
     /// The tool that it has put into the spindle, if it has changed it.
@@ -49,6 +51,9 @@ impl SaidOutputs {
             wanted.spindle_speed = self.said.spindle_speed;
             wanted.spindle_angle = self.said.spindle_angle;
             wanted.spindle_turn = self.said.spindle_turn;
+        }
+        if self.has_changed_gear {
+            wanted.spindle_gear = self.said.spindle_gear;
         }
         if self.has_told_coolant {
             wanted.coolant = self.said.coolant;
@@ -94,6 +99,21 @@ mod tests {
         // At another angle it is turned anew.
         let elsewhere = [angle(30.0), Event::MCode(19)];
         assert_eq!(said(&elsewhere).restoring(&now), elsewhere);
+    }
+
+    #[test]
+    fn a_gear_is_put_in_again_where_another_one_is() {
+        let words = [Event::SpindleGear(2), Event::MCode(42)];
+        let mut now = Auxiliary::default();
+        assert_eq!(said(&words).restoring(&now), words);
+        now.take(words[0]);
+        assert_eq!(said(&words).restoring(&now), []);
+        // In front of the speed.
+        now.spindle_gear = 1;
+        let turning = [words[0], words[1], Event::SpindleSpeed(3000.0)];
+        assert_eq!(said(&turning).restoring(&now), turning);
+        // A code of the machine is no gear.
+        assert_eq!(said(&[Event::MCode(41)]).restoring(&now), []);
     }
 
     #[test]

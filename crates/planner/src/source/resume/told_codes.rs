@@ -17,7 +17,9 @@ impl ToldCodes {
     /// Takes note of an item that was executed.
     pub(super) fn take(&mut self, item: &Item) {
         match item.kind {
-            ItemKind::Event(Event::CodeWord { .. } | Event::SpindleAngle { .. }) => {
+            ItemKind::Event(
+                Event::CodeWord { .. } | Event::SpindleAngle { .. } | Event::SpindleGear(_),
+            ) => {
                 self.words.push(*item);
             }
             ItemKind::Event(Event::MCode(code)) => {
