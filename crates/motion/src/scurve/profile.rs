@@ -128,6 +128,14 @@ impl Profile {
         }
     }
 
+    /// When the path position of the profile is `s`, s after its start.
+    pub(crate) fn time_at(&self, s: f64) -> f64 {
+        let phases = self.phases.iter().rev();
+        let passed = phases.filter(|p| p.duration_t > 0.0 && p.position_s <= s);
+        let own = passed.into_iter().next();
+        own.map_or(0.0, |phase| phase.start_t + phase.time_at(s))
+    }
+
     /// The state `t` seconds after the start, held before the start and after the end.
     #[must_use]
     pub fn at(&self, t: f64) -> PathState {

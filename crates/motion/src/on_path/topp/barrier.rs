@@ -252,9 +252,10 @@ impl Newton {
                 Part::End => self.add::<1, 2, 0>(place, &local),
             }
         }
-        // The two coefficients at either end are given.
+        // One or two coefficients at either end are given.
         let count = x.len();
-        for fixed in [0, 1, count - 2, count - 1] {
+        let [first, last] = problem.given;
+        for fixed in (0..first).chain(count - last..count) {
             self.gradient[fixed] = 0.0;
             self.band[fixed] = [1.0, 0.0, 0.0];
             if fixed >= 1 {

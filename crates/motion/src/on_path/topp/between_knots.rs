@@ -7,6 +7,7 @@
 //! intervals around are given a smaller share of the limits, and the parametrisation is made anew.
 
 use super::interval::Interval;
+use super::knots::KnotPath;
 use super::parametrisation::{MotionPhase, Parametrisation};
 use super::solver_tolerances::SolverTolerances;
 use crate::joints::MachineLimits;
@@ -46,13 +47,11 @@ const SPEED_ROUNDING_R: f64 = 1e-9;
 fn worst(
     phase: &MotionPhase,
     duration_t: f64,
-    interval: &Interval,
+    (knot_path, interval): (&KnotPath, &Interval),
     sequence: &PieceSequence<'_>,
     limits: &MachineLimits,
 ) -> f64 {
-    let piece = &sequence.pieces[interval.piece];
-    let from_s = sequence.starts_s[interval.piece];
-    let places = match piece.shape {
+    let places = match sequence.pieces[interval.piece].shape {
         Shape::Transition(_) => PLACES_OF_TRANSITION,
         Shape::Segment(_) | Shape::Spline(_) => PLACES,
     };
@@ -64,7 +63,7 @@ fn worst(
         } else if k == places {
             interval.end
         } else {
-            piece.jet((state.position_s - from_s).clamp(0.0, piece.length_s))
+            knot_path.jet(sequence, (interval.piece, interval.phase), state.position_s)
         };
         worst = worst.max(used_by_all(&jet, &state, phase, limits));
     }
@@ -200,7 +199,7 @@ pub(crate) fn lessen(
     shares: &mut [f64],
     (parametrisation, first): (&Parametrisation, usize),
     firmness: f64,
-    intervals: &[Interval],
+    knot_path: &KnotPath,
     sequence: &PieceSequence<'_>,
     (limits, tolerances): (&MachineLimits, &SolverTolerances),
 ) -> Remedy {
@@ -209,7 +208,7 @@ pub(crate) fn lessen(
         halved: Vec::new(),
         is_none: true,
     };
-    for (k, interval) in intervals.iter().enumerate() {
+    for (k, interval) in knot_path.intervals.iter().enumerate() {
         let Some(phase) = parametrisation.phases.get(first + k) else {
             break;
         };
@@ -224,7 +223,7 @@ pub(crate) fn lessen(
             (Shape::Spline(span), Some(places)) => {
                 worst_of_span(phase, interval, (span, from_s, places), limits)
             }
-            _ => worst(phase, duration_t, interval, sequence, limits),
+            _ => worst(phase, duration_t, (knot_path, interval), sequence, limits),
         };
         if ratio <= 1.0 {
             continue;

@@ -78,6 +78,10 @@ pub(crate) struct Problem {
     /// How many limits there are, those that hold both ways counted twice.
     pub(crate) count: usize,
     pub(crate) knots: usize,
+    /// How many coefficients are given at start and end.
+    pub(crate) given: [usize; 2],
+    /// Every limit may bind.
+    may_all_bind: bool,
 }
 
 /// Share of the jerk of an axis that may be asked for at a place: it changes faster between them than
@@ -100,6 +104,10 @@ impl Problem {
             rows: Vec::with_capacity(4 * count),
             count: 0,
             knots: count + 1,
+            given: knot_path
+                .rests_in_time
+                .map(|rests| if rests { 1 } else { 2 }),
+            may_all_bind: knot_path.nominal.is_some(),
         };
         for (k, (interval, share_r)) in knot_path.intervals.iter().zip(shares).enumerate() {
             let parabola = knot_path.parabola(k);
@@ -113,7 +121,7 @@ impl Problem {
             if let Some((limits, [start, _])) = of_joints {
                 problem.axes((start, interval.start_v), limits, *share_r, true);
             }
-            problem.path(axes);
+            problem.path(axes, interval.along.as_deref().map(|[start, _]| *start));
             // The speed of S-curves is within the top speed, or at it: there is no room to ask for.
             let is_given = |is_end: bool, end: usize| is_end && knot_path.ends_r[end].is_some();
             let (from_given, to_given) = (is_given(k == 0, 0), is_given(k + 1 == count, 1));
@@ -134,7 +142,7 @@ impl Problem {
             if let Some((limits, [_, end])) = of_joints {
                 problem.axes((end, interval.end_v), limits, *share_r, !is_inside);
             }
-            problem.path(axes);
+            problem.path(axes, interval.along.as_deref().map(|[_, end]| *end));
             let end_v = if is_inside || to_given {
                 f64::INFINITY
             } else {
@@ -212,14 +220,15 @@ impl Problem {
         }
     }
 
-    /// The limits along the path. s̈ is linear between two knots, so nothing of the acceleration is kept
+    /// The limits along the path, of which `along` has the derivatives by nominal time. s̈ is linear between two knots, so nothing of the acceleration is kept
     /// back for what is between them; s⃛ has √b in it, which is not.
-    fn path(&mut self, limits: &Limits) {
+    fn path(&mut self, limits: &Limits, along: Option<[f64; 3]>) {
         let bounds = &limits.path;
+        let [d1, d2, d3] = along.unwrap_or([1.0, 0.0, 0.0]);
         self.row(Row {
-            half_d1: 0.5,
-            d2: 0.0,
-            d3: 0.0,
+            half_d1: 0.5 * d1,
+            d2,
+            d3,
             most_a: finite(bounds.tangential_a),
             most_j: BETWEEN_R * finite(bounds.jerk_j),
         });
@@ -240,8 +249,9 @@ impl Problem {
             let needed_a = along_a + d2.abs() * top_v * top_v;
             let cross_j = 3.0 * d2.abs() * top_v * bounds.tangential_a;
             let needed_j = d1.abs() * bounds.jerk_j + cross_j + d3.abs() * top_v.powi(3);
+            let may_bind = self.may_all_bind;
             let binding = |limit: f64, needed: f64| {
-                if limit < IDLE_R * needed {
+                if may_bind || limit < IDLE_R * needed {
                     finite(limit)
                 } else {
                     f64::INFINITY

@@ -17,22 +17,27 @@ pub(crate) struct Caps {
     pub(crate) chord_a: f64,
 }
 
-/// The path between two knots.
+/// The path between two knots, measured by path position, or by nominal time, s, where knots are at times
+/// ([`super::nominal`]): derivatives and speeds are by that, too.
 #[derive(Debug)]
 pub(crate) struct Interval {
     /// The piece it is on.
     pub(crate) piece: usize,
-    /// Path position of its start, and its length, mm.
+    /// The phase of the S-curves that it is on, where it is measured by their time; 0 elsewhere.
+    pub(crate) phase: usize,
+    /// Where it starts, and its length, mm or s.
     pub(crate) from_s: f64,
     pub(crate) length_s: f64,
-    /// The axes and their derivatives by path position at its ends. Where pieces meet, those of this
-    /// piece: they jump there.
+    /// The axes and their derivatives at its ends. Where pieces or phases meet, those of this one: they jump
+    /// there.
     pub(crate) start: Jet,
     pub(crate) end: Jet,
     /// The joints at start and end, where they are not the axes. Apart, because most machines have none, and
     /// slow curves very many intervals.
     pub(crate) joints: Option<Box<[Jet; 2]>>,
-    /// Top speeds at its start, in its middle and at its end, mm/s: axes, joints, the rate and the chord
+    /// The path's own derivatives there, first to third, where it is measured by nominal time.
+    pub(crate) along: Option<Box<[[f64; 3]; 2]>>,
+    /// Top speeds at its start, in its middle and at its end, mm/s or a rate: axes, joints, the rate and the chord
     /// error, but not what changes of speed take.
     pub(crate) start_v: f64,
     pub(crate) middle_v: f64,

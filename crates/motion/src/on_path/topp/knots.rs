@@ -3,6 +3,7 @@
 
 use super::interval::{Caps, Interval};
 use super::knot_times::{Mark, RestPhase, knot_time, marks, position_at, rest_phase, times};
+use super::nominal::Nominal;
 use super::parabola::Parabola;
 use super::solver_tolerances::SolverTolerances;
 use crate::joints::MachineLimits;
@@ -13,6 +14,10 @@ use glidepath_geometry::{AxisVector, Jet, Segment};
 /// Most knots. A piece that is driven for longer than these last, at a feed of micrometres, has
 /// them farther apart: its speed is the feed then, and memory does not grow with the time.
 const MOST_KNOTS: f64 = 30_000.0;
+/// Knots of a window that passes corners are closer by this, where they are at times: what binds at a corner does so for
+/// a few ms. On a passage by the pole of two tables, with four corners, the two that are passed take 1.3 % less
+/// time with half, and .4 % less again with a quarter.
+const CORNER_R: f64 = 0.5;
 /// The time T in which the initial iterate goes over from the speed v of the S-curves to its own: the larger
 /// one of T² = RAMP_JERK·v/j and T = RAMP_ACCEL·v/a, so that it asks for a fifth of the jerk j and of the
 /// acceleration a of an axis. From 1 to .85 of the speed ([`crate::on_path::refining::RATE_R`]) a quintic has
@@ -26,24 +31,32 @@ const RAMP_ACCEL: f64 = 1.4;
 #[derive(Debug)]
 pub(crate) struct KnotPath {
     pub(crate) intervals: Vec<Interval>,
+    /// The time of the S-curves, where knots are at times on it and not at path positions.
+    pub(super) nominal: Option<Nominal>,
     /// What the initial iterate is made of, and places on it, densely.
-    legs: Vec<Leg>,
+    pub(super) legs: Vec<Leg>,
     marks: Vec<Mark>,
     /// Time from knot to knot, s.
     knot_t: f64,
     /// Those of [`SolverTolerances`].
     nearest_r: f64,
     rest_growth: f64,
-    /// At start and end; `None` where the motion does not rest.
+    /// At start and end; `None` where the motion does not rest, or knots are at times.
     pub(crate) rests: [Option<RestPhase>; 2],
-    /// The speed of the S-curves at start and end, mm/s.
+    /// Whether there is a rest at start and end, in nominal time. The rate at which the motion leaves it is
+    /// sought, too; it has no slope there. With one, jerk would keep its limits at both ends of the interval and
+    /// be far beyond them between.
+    pub(crate) rests_in_time: [bool; 2],
+    /// The speed of the S-curves at start and end, mm/s, by path position.
     pub(crate) ends_v: [f64; 2],
     /// How fast the motion is at start and end, in speeds of the S-curves; `None` where it is as
     /// fast as the initial iterate.
     pub(crate) ends_r: [Option<f64>; 2],
-    /// Lengths on which that goes from the one to the other, mm.
-    ramps_s: [f64; 2],
+    /// Lengths on which that goes from the one to the other, mm; times, s, if knots are at these.
+    pub(super) ramps_s: [f64; 2],
     pub(crate) length_s: f64,
+    /// Where the last knot is, mm or s.
+    pub(super) extent: f64,
 }
 
 impl KnotPath {
@@ -57,29 +70,58 @@ impl KnotPath {
     ) -> Option<Self> {
         let first = legs.first()?.profile;
         let last = legs.last()?.profile;
+        let duration_t: f64 = legs.iter().map(|leg| leg.profile.duration_t()).sum();
+        let knot_t = knot_time(limits, tolerances).max(duration_t / MOST_KNOTS);
+        // On dense blocks there are about as many phases as knots.
+        let by_time = limits.joints.is_some() && tolerances.places_of_span.is_none();
+        let is_corner = |piece: &Piece| !matches!(piece.shape, Shape::Segment(_));
+        let knot_t = if by_time && sequence.pieces.iter().any(is_corner) {
+            CORNER_R * knot_t
+        } else {
+            knot_t
+        };
+        let nominal = if by_time {
+            Some(Nominal::new(legs)?)
+        } else {
+            None
+        };
+        let length_s = sequence.length_s();
+        let ends_v = [first.entry_v(), last.exit_v()];
+        let are_rests = ends_v.map(|v| v <= 0.0);
         let rests = [
-            (first.entry_v() <= 0.0).then(|| rest_phase(first.phases())),
-            (last.exit_v() <= 0.0).then(|| {
+            (!by_time && are_rests[0]).then(|| rest_phase(first.phases())),
+            (!by_time && are_rests[1]).then(|| {
                 let phases: Vec<_> = last.phases().collect();
                 rest_phase(phases.into_iter().rev())
             }),
         ];
-        let duration_t: f64 = legs.iter().map(|leg| leg.profile.duration_t()).sum();
-        let knot_t = knot_time(limits, tolerances).max(duration_t / MOST_KNOTS);
         let mut knot_path = Self {
             intervals: Vec::new(),
             legs: legs.to_vec(),
             marks: marks(legs, knot_t),
             rests,
-            ends_v: [first.entry_v(), last.exit_v()],
+            rests_in_time: are_rests.map(|is_rest| by_time && is_rest),
+            ends_v,
             ends_r,
-            ramps_s: [first.entry_v(), last.exit_v()].map(|v| ramp_length(v, sequence, limits)),
-            length_s: sequence.length_s(),
+            ramps_s: ends_v.map(|v| {
+                let unit_v = if by_time { v } else { 1.0 };
+                ramp_length(v, sequence, limits) / unit_v
+            }),
+            length_s,
+            extent: nominal.as_ref().map_or(length_s, Nominal::duration_t),
+            nominal,
             knot_t,
             nearest_r: tolerances.nearest_r,
             rest_growth: tolerances.rest_growth,
         };
-        let knots = knot_path.knots(sequence);
+        let knots = match &knot_path.nominal {
+            Some(nominal) => {
+                // The ends have their time. Next to a rest that of a position is known to some µs only.
+                let junctions_s = &sequence.starts_s[1..sequence.pieces.len()];
+                nominal.knots(legs, junctions_s, knot_t)
+            }
+            None => knot_path.knots(sequence),
+        };
         knot_path.lay(sequence, &knots, limits);
         // Two coefficients are given at either end: of three intervals one is left. Why five are asked for is
         // not on record.
@@ -95,7 +137,13 @@ impl KnotPath {
     /// The parabola of an interval, over its coefficients.
     pub(crate) fn parabola(&self, k: usize) -> Parabola {
         let length = |k: usize| self.intervals.get(k).map_or(0.0, |i| i.length_s);
-        Parabola::new([self.before_s(k), length(k), length(k + 1)])
+        let own = Parabola::new([self.before_s(k), length(k), length(k + 1)]);
+        if self.nominal.is_none() {
+            return own;
+        }
+        let [starts, ends] = self.rests_in_time;
+        let at_rest = [starts && k == 0, ends && k + 1 == self.intervals.len()];
+        own.level_at(length(k), at_rest)
     }
 
     /// Path position at which the phase next to the start ends, and that where the one next to the
@@ -152,22 +200,6 @@ impl KnotPath {
         knots
     }
 
-    /// The coefficient of b on an interval, as the S-curves have it: where the tangents of b at the
-    /// ends have the middle, on average. Exact for a parabola.
-    fn coefficient(&self, interval: &Interval) -> f64 {
-        let half_s = 0.5 * interval.length_s;
-        let after = |s: f64| self.legs.partition_point(|leg| leg.from_s <= s);
-        let tangent = |s: f64, step_s: f64| {
-            let leg = self.legs.get(after(s).saturating_sub(1));
-            leg.map_or(0.0, |leg| {
-                let state = leg.profile.at_position(s - leg.from_s);
-                state.speed_v * state.speed_v + 2.0 * state.accel_a * step_s
-            })
-        };
-        let [from_s, to_s] = [interval.from_s, interval.from_s + interval.length_s];
-        0.5 * (tangent(from_s, half_s) + tangent(to_s, -half_s))
-    }
-
     /// Puts knots into the middle of some intervals, in rising order.
     pub(crate) fn halve(
         &mut self,
@@ -183,8 +215,27 @@ impl KnotPath {
                 knots.push(interval.from_s + 0.5 * interval.length_s);
             }
         }
-        knots.push(self.inner()[1]);
+        knots.push(match self.nominal {
+            Some(_) => self.extent,
+            None => self.inner()[1],
+        });
         self.lay(sequence, &knots, limits);
+    }
+
+    /// The axes and their derivatives at a place of a piece and a phase.
+    pub(crate) fn jet(
+        &self,
+        sequence: &PieceSequence<'_>,
+        (piece, phase): (usize, usize),
+        at: f64,
+    ) -> Jet {
+        match &self.nominal {
+            Some(of) => {
+                let place = of.place(phase, at);
+                place.jet(&path_jet(sequence, piece, place.state.position_s))
+            }
+            None => path_jet(sequence, piece, at),
+        }
     }
 
     /// The path between the knots.
@@ -192,109 +243,55 @@ impl KnotPath {
         for window in knots.windows(2) {
             let (from_s, to_s) = (window[0], window[1]);
             let middle_s = 0.5 * (from_s + to_s);
-            let index = sequence.touched(middle_s, middle_s).start;
-            let piece = &sequence.pieces[index];
-            let caps = caps(piece);
-            let jet = |s: f64| piece.jet((s - sequence.starts_s[index]).clamp(0.0, piece.length_s));
-            let start = match self.intervals.last() {
-                Some(before) if before.piece == index => before.end,
-                _ => jet(from_s),
+            let nominal = self.nominal.as_ref().map(|of| {
+                let phase = of.phase_at(middle_s);
+                let places = [from_s, middle_s, to_s].map(|at| of.place(phase, at));
+                (phase, places)
+            });
+            let (phase, on_path_s) = nominal.as_ref().map_or((0, middle_s), |(phase, places)| {
+                (*phase, places[1].state.position_s)
+            });
+            let index = sequence.touched(on_path_s, on_path_s).start;
+            let before = self.intervals.last();
+            let before = before.filter(|before| (before.piece, before.phase) == (index, phase));
+            let jet = |s: f64| path_jet(sequence, index, s);
+            let caps = caps(&sequence.pieces[index]);
+            let cap_v = |jet: &Jet| Interval::cap_v(jet, &caps, &limits.axes);
+            let (jets, top_v) = match &nominal {
+                None => {
+                    let start = before.map_or_else(|| jet(from_s), |before| before.end);
+                    let jets = [start, jet(middle_s), jet(to_s)];
+                    (jets, [0, 1, 2].map(|k| cap_v(&jets[k])))
+                }
+                Some((_, places)) => {
+                    let on_path = [0, 1, 2].map(|k| jet(places[k].state.position_s));
+                    (
+                        [0, 1, 2].map(|k| places[k].jet(&on_path[k])),
+                        [0, 1, 2].map(|k| places[k].rate(cap_v(&on_path[k]))),
+                    )
+                }
             };
-            let [middle, end] = [middle_s, to_s].map(jet);
-            let own_v = |jet: &Jet| Interval::cap_v(jet, &caps, &limits.axes);
-            let joints = JointEnds::new(
-                self.intervals.last(),
-                index,
-                [&start, &middle, &end],
-                limits,
-            );
+            let joints = JointEnds::new(before, [&jets[0], &jets[1], &jets[2]], limits);
+            let [start, _, end] = jets;
             let by_joints_v = joints
                 .as_ref()
                 .map_or([f64::INFINITY; 3], |joints| joints.caps_v);
-            let top_v = |jet: &Jet, place: usize| own_v(jet).min(by_joints_v[place]);
+            let [start_v, middle_v, end_v] = [0, 1, 2].map(|k| top_v[k].min(by_joints_v[k]));
             self.intervals.push(Interval {
                 piece: index,
+                phase,
                 from_s,
                 length_s: to_s - from_s,
-                start_v: top_v(&start, 0),
-                middle_v: top_v(&middle, 1),
-                end_v: top_v(&end, 2),
+                start_v,
+                middle_v,
+                end_v,
                 start,
                 end,
+                along: nominal
+                    .map(|(_, [start, _, end])| Box::new([start.derivatives(), end.derivatives()])),
                 joints: joints.map(|joints| Box::new(joints.ends)),
             });
         }
-    }
-
-    /// How fast the initial iterate is at a path position, in speeds of the S-curves; `rate_r` away from the
-    /// ends.
-    fn rate_at(&self, s: f64, rate_r: f64) -> f64 {
-        let sides_s = [s, self.length_s - s];
-        let mut at_r = rate_r;
-        for ((end_r, ramp_s), side_s) in self.ends_r.iter().zip(self.ramps_s).zip(sides_s) {
-            if let Some(end_r) = end_r {
-                let u = (side_s / ramp_s).clamp(0.0, 1.0);
-                // The quintic with no slope and no second derivative at its ends: neither acceleration
-                // nor jerk jumps there.
-                let passed_r = u * u * u * (10.0 + u * (6.0 * u - 15.0));
-                at_r += (end_r - rate_r) * (1.0 - passed_r);
-            }
-        }
-        at_r
-    }
-
-    /// How fast the motion is at start and end, in speeds of the S-curves.
-    pub(crate) fn ends_at(&self, rate_r: f64) -> [f64; 2] {
-        self.ends_r.map(|end_r| end_r.unwrap_or(rate_r))
-    }
-
-    /// The initial iterate of the optimisation: coefficients of the S-curves, `rate_r` times as fast, but for
-    /// the ends.
-    pub(crate) fn initial(&self, rate_r: f64) -> Vec<f64> {
-        let square_r = rate_r * rate_r;
-        let count = self.intervals.len();
-        let mut x = Vec::with_capacity(count + 2);
-        let speed = |rest: Option<RestPhase>, end_v: f64| match rest {
-            Some(r) => {
-                let speed_v = 0.5 * r.jerk_j * r.duration_t * r.duration_t;
-                (speed_v * speed_v, r.jerk_j * r.duration_t)
-            }
-            None => (end_v * end_v, 0.0),
-        };
-        let (start_b, start_a) = speed(self.rests[0], self.ends_v[0]);
-        let (end_b, end_a) = speed(self.rests[1], self.ends_v[1]);
-        // The coefficient next to an end is where the tangent of b there leads to in the middle of the interval,
-        // b ± b′·h/2, and b′ is twice the acceleration. `end_a` is without its sign: there the motion slows down.
-        x.push(start_b);
-        for interval in &self.intervals {
-            x.push(self.coefficient(interval));
-        }
-        x.push(end_b);
-        if let (Some(first), Some(last)) = (self.intervals.first(), self.intervals.last()) {
-            x[1] = start_b + start_a * first.length_s;
-            x[count] = end_b + end_a * last.length_s;
-        }
-        if self.ends_r == [None; 2] {
-            for b in &mut x {
-                *b *= square_r;
-            }
-            return x;
-        }
-        let middle = |interval: &Interval| interval.from_s + 0.5 * interval.length_s;
-        for (b, interval) in x[1..=count].iter_mut().zip(&self.intervals) {
-            *b *= self.rate_at(middle(interval), rate_r).powi(2);
-        }
-        let [start_r, end_r] = self.ends_at(rate_r);
-        x[0] = start_b * start_r * start_r;
-        x[count + 1] = end_b * end_r * end_r;
-        // Nothing but the speed is given there.
-        if self.ends_r[0].is_some() {
-            x[1] = x[0];
-        }
-        if self.ends_r[1].is_some() {
-            x[count] = x[count + 1];
-        }
-        x
     }
 }
 
@@ -307,18 +304,15 @@ struct JointEnds {
 }
 
 impl JointEnds {
-    /// From the path at the three places; what the interval before on the same piece has is not computed
-    /// again.
+    /// From the path at the three places; what the interval before has, on the same piece and phase, is not
+    /// computed again.
     fn new(
         before: Option<&Interval>,
-        piece: usize,
         [start, middle, end]: [&Jet; 3],
         limits: &MachineLimits,
     ) -> Option<Self> {
         let rows = limits.joints.as_ref()?;
-        let known = before
-            .filter(|before| before.piece == piece)
-            .and_then(|before| before.joints.as_ref().map(|joints| joints[1]));
+        let known = before.and_then(|before| before.joints.as_ref().map(|joints| joints[1]));
         let start = match known {
             Some(start) => start,
             None => rows.along(start)?,
@@ -330,6 +324,12 @@ impl JointEnds {
             caps_v,
         })
     }
+}
+
+/// The axes and their derivatives by path position, at one on a piece.
+fn path_jet(sequence: &PieceSequence<'_>, piece: usize, s: f64) -> Jet {
+    let own = &sequence.pieces[piece];
+    own.jet((s - sequence.starts_s[piece]).clamp(0.0, own.length_s))
 }
 
 /// What bounds the speed on a piece whatever the axes can do. Where the curvature changes within a

@@ -5,6 +5,7 @@ use super::between_knots::lessen;
 use super::constraints::Problem;
 use super::knot_times::RestPhase;
 use super::knots::KnotPath;
+use super::nominal::Nominal;
 use super::parametrisation::{Builder, Parametrisation};
 use super::solver_tolerances::SolverTolerances;
 use crate::joints::MachineLimits;
@@ -41,7 +42,7 @@ pub(crate) fn optimise(
             &mut shares,
             (&parametrisation, first),
             firmness,
-            &knot_path.intervals,
+            &knot_path,
             sequence,
             (limits, tolerances),
         );
@@ -95,9 +96,10 @@ fn parametrisation_of(
         };
         builder.push_phase(state, jerk_j, duration_t);
     }
-    Some(builder.finish(PathState {
+    let end = PathState {
         position_s: knot_path.length_s,
         speed_v: knot_path.ends_v[1] * knot_path.ends_at(rate_r)[1],
         accel_a: 0.0,
-    }))
+    };
+    Some(builder.finish(end, knot_path.nominal.as_ref().map(Nominal::motion)))
 }

@@ -23,6 +23,9 @@
 //!   checked on b holds for the motion ([`Parametrisation`]). Next to a rest, where b ~ s^(4/3), a
 //!   short phase of constant jerk takes the place of the spline. Between the knots, where there are
 //!   no constraints, the parametrisation is judged afterwards ([`between_knots`]).
+//! * **Joints.** Where joints are not axes, every line is driven by it, from rest to rest, and the jerk that an
+//!   interval leaves unused next to a rest counts at each corner. There s is the time of the S-curves
+//!   ([`nominal`]), and rests need no phase of their own.
 //! * **Optimisation.** Least Σ h/√b, which is the time, ∫ ds/v, and convex in b, with a logarithmic
 //!   barrier for each limit, by Newton's method; each constraint of the problem touches three
 //!   neighbouring coefficients, so a step costs a banded factorisation ([`barrier`]). Its initial
@@ -30,7 +33,7 @@
 //!
 //! **The unknowns** are one coefficient of b for each interval between knots, the middle Bézier point of its
 //! parabola, and one more at either end. Of these the first two and the last two are given: they are speed
-//! and acceleration there. A window of n intervals has n − 2 unknowns, and the least time is sought over
+//! and acceleration there. At a rest in nominal time the rate is unknown as well, and only its slope is given. A window of n intervals has n − 2 unknowns, and the least time is sought over
 //! them alone: the path is not.
 //!
 //! **What if none is found.** The initial iterate has to keep the constraints with room to spare. If it does not, the
@@ -44,10 +47,12 @@
 mod barrier;
 mod between_knots;
 mod constraints;
+mod initial;
 mod interval;
 mod knot_times;
 mod knots;
 mod least_time;
+mod nominal;
 mod parabola;
 mod parametrisation;
 mod solver_tolerances;

@@ -39,6 +39,20 @@ impl Parabola {
         }
     }
 
+    /// The same of an interval of that length where b has no slope at its start or end: b is the coefficient of
+    /// the interval there, and that beyond it counts for nothing.
+    pub(crate) fn level_at(mut self, own: f64, [is_start, is_end]: [bool; 2]) -> Self {
+        for (place, is_level) in [(&mut self.start, is_start), (&mut self.end, is_end)] {
+            if is_level {
+                (place.value, place.slope) = ([0.0, 1.0, 0.0], [0.0; 3]);
+            }
+        }
+        let (start, end) = (self.start.slope, self.end.slope);
+        let second = core::array::from_fn(|i| (end[i] - start[i]) / own);
+        (self.start.second, self.end.second) = (second, second);
+        self
+    }
+
     /// b, b′ and b″ at the start for some coefficients.
     pub(crate) fn at_start(&self, x: &[f64]) -> [f64; 3] {
         [self.start.value, self.start.slope, self.start.second]

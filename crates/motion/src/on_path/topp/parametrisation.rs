@@ -10,6 +10,8 @@ pub(crate) struct Parametrisation {
     pub(crate) phases: Vec<MotionPhase>,
     pub(crate) duration_t: f64,
     end: PathState,
+    /// The motion whose time the phases are over, in the place of path position.
+    nominal: Option<Box<Self>>,
 }
 
 /// A part of a time parametrisation on which acceleration changes by constant jerk, or in
@@ -91,7 +93,9 @@ impl MotionPhase {
 impl Parametrisation {
     /// Memory that it keeps beside its own, bytes.
     pub(crate) fn heap_bytes(&self) -> usize {
+        let beside = self.nominal.as_deref();
         self.phases.capacity() * size_of::<MotionPhase>()
+            + beside.map_or(0, |nominal| size_of_val(nominal) + nominal.heap_bytes())
     }
 
     /// The same motion as some S-curves, slowed down: `rate_r` ≤ 1 times as fast. Acceleration goes
@@ -127,6 +131,7 @@ impl Parametrisation {
             phases,
             duration_t: from_t,
             end,
+            nominal: None,
         })
     }
 
@@ -151,9 +156,19 @@ impl Parametrisation {
             return self.end;
         }
         let index = self.phases.partition_point(|phase| phase.from_t <= t);
-        match self.phases.get(index.saturating_sub(1)) {
+        let own = match self.phases.get(index.saturating_sub(1)) {
             Some(phase) => phase.at(t - phase.from_t),
-            None => self.end,
+            None => return self.end,
+        };
+        let Some(nominal) = &self.nominal else {
+            return own;
+        };
+        let (rate_r, rise) = (own.speed_v, own.accel_a);
+        let there = nominal.at(own.position_s);
+        PathState {
+            position_s: there.position_s,
+            speed_v: there.speed_v * rate_r,
+            accel_a: there.accel_a * rate_r * rate_r + there.speed_v * rise,
         }
     }
 }
@@ -175,6 +190,7 @@ impl Builder {
                 phases: Vec::new(),
                 duration_t: 0.0,
                 end,
+                nominal: None,
             },
         }
     }
@@ -228,8 +244,15 @@ impl Builder {
         is_through.then_some(())
     }
 
-    pub(crate) fn finish(mut self, end: PathState) -> Parametrisation {
+    /// What the phases make, up to its end. `nominal`: the motion whose time they are over, if they are not over
+    /// path position.
+    pub(crate) fn finish(
+        mut self,
+        end: PathState,
+        nominal: Option<Parametrisation>,
+    ) -> Parametrisation {
         self.parametrisation.end = end;
+        self.parametrisation.nominal = nominal.map(Box::new);
         self.parametrisation
     }
 }
