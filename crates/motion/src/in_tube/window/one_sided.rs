@@ -201,7 +201,6 @@ impl<const D: usize> ScaledPath<D> {
 /// what the judge allows.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StartOffset<const D: usize> {
-    start: [f64; D],
     offset: [f64; D],
     /// It is further beyond a border of its own place than the judge allows.
     is_beyond: bool,
@@ -228,7 +227,6 @@ impl<const D: usize> StartOffset<D> {
         let off: [f64; D] = core::array::from_fn(|k| start[k] - here[k]);
         let along = dot(&off, tangent);
         Self {
-            start: *start,
             offset: core::array::from_fn(|k| off[k] - along * tangent[k]),
             is_beyond,
             settling_periods,
@@ -236,27 +234,21 @@ impl<const D: usize> StartOffset<D> {
     }
 
     /// How far the end of period `k` may be outside of the border of a side, where the path is `here`: less and less
-    /// from period to period. The end of an axis' way stays where it is: no plunge goes below its depth, whatever
-    /// comes into sight. Only where the start itself is beyond the place that an axis sets out from, which it may be
-    /// on the inner side of the corner before, it goes over there, too.
+    /// from period to period. The end of an axis' way stays where it is: no plunge goes
+    /// below its depth, whatever comes into sight.
     fn room(&self, k: usize, side: &HalfSpace<D>, here: &[f64; D], allowed: f64) -> f64 {
-        if k >= self.settling_periods {
+        let inside = dot(&side.normal, here) - side.least;
+        let outside = -inside - dot(&side.normal, &self.offset);
+        if side.axis.is_some() || k >= self.settling_periods || outside <= 0.0 {
             return 0.0;
         }
-        let most = if side.axis.is_some() {
-            let outside = side.least - dot(&side.normal, &self.start);
-            if outside > allowed { outside } else { 0.0 }
-        } else {
-            let inside = dot(&side.normal, here) - side.least;
-            let outside = -inside - dot(&side.normal, &self.offset);
-            match outside {
-                ..=0.0 => 0.0,
-                _ if self.is_beyond => outside.max(allowed),
-                _ => allowed,
-            }
-        };
         #[expect(clippy::cast_precision_loss, reason = "a few periods")]
         let left_r = 1.0 - k as f64 / self.settling_periods as f64;
+        let most = if self.is_beyond {
+            outside.max(allowed)
+        } else {
+            allowed
+        };
         most * left_r
     }
 }
