@@ -45,7 +45,7 @@ fn arcs_beside_a_rounded_contour_end_where_they_say() {
             for behind in [
                 "G2 X-10 Y10 R10",
                 "G3 X-10 Y-10 R10",
-                "G2 X-5 Y5 R5\nG2 X-10 Y10 R-5.0004",
+                "G2 X-5 Y5 R5\nG2 X0 Y10 R5.0004",
                 "G3 X-5 Y-5 R5\nG1 Y-20\nG3 X5 Y-30 R10.0003",
             ] {
                 let text = format!(
