@@ -53,6 +53,9 @@ pub(crate) struct Spindle {
     /// Fewest revolutions a minute of a spindle that turns (G25 of SINUMERIK).
     #[serde(default)]
     pub(crate) lower: Option<f64>,
+    /// M5 stopped it, and nothing that may start it came behind.
+    #[serde(default)]
+    pub(crate) is_stopped: bool,
     /// The next tapping cycle is rigid (M29).
     pub(crate) is_rigid: bool,
 }

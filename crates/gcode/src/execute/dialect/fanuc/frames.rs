@@ -9,7 +9,6 @@ use crate::execute::state::fanuc_offsets::{FanucFrames, Scale, Turn};
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::frame_codes::FrameCode;
-use crate::syntax::modes::Distance;
 use crate::syntax::word_check::missing;
 
 /// Factors beyond this, or below one over it, are refused.
@@ -184,7 +183,7 @@ impl Interpreter {
         Ok(())
     }
 
-    /// R in degrees, about the two axes of the plane; in G91 it is added.
+    /// R in degrees, about the two axes of the plane: the angle itself in G91, too (parameter 5400#0 RIN = 0).
     fn turn_words(&self, block: &Block, coded: Coded<FrameCode>) -> Outcome<Turn> {
         let plane = self.state.modal.plane;
         if plane.normal().index() >= 3 {
@@ -199,8 +198,6 @@ impl Interpreter {
             .get(b'R')
             .ok_or_else(|| missing(coded.span, "G68", "R", "the angle"))?;
         let before = self.state.offsets.fanuc.frames.turn;
-        let adds = self.state.modal.distance == Distance::Incremental;
-        let base = before.filter(|_| adds).map_or(0.0, |turn| turn.degrees);
         let others = FanucFrames {
             turn: None,
             ..self.state.offsets.fanuc.frames
@@ -212,7 +209,7 @@ impl Interpreter {
         Ok(Turn {
             plane,
             about,
-            degrees: base + degrees,
+            degrees,
         })
     }
 }
