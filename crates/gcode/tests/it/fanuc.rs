@@ -283,6 +283,15 @@ fn coordinates_are_turned_scaled_and_mirrored() {
         last("G68 X0 Y0 R30.\nG91 G68 R90.\nG90 G0 X10 Y0"),
         [0.0, 10.0, 0.0]
     );
+    let added = Options {
+        fanuc: FanucParameters {
+            rotations_add: true,
+            ..options().fanuc
+        },
+        ..options()
+    };
+    let found = ends_with("G68 X0 Y0 R30.\nG91 G68 R60.\nG90 G0 X10 Y0", added);
+    assert_eq!(found, [[0.0, 10.0, 0.0]]);
     assert_eq!(last("G51 X10 Y0 P2000\nG0 X15 Y3"), [20.0, 6.0, 0.0]);
     assert_eq!(last("G51 X10 Y0 P2.\nG0 X15 Y3"), [20.0, 6.0, 0.0]);
     assert_eq!(last("G51 X0 Y0 I-1. J1.\nG0 X15 Y3"), [-15.0, 3.0, 0.0]);

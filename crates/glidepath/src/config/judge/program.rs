@@ -167,6 +167,11 @@ impl Judge {
                 raw.roll_over.take(),
                 &[("off", false), ("shorter-way", true)],
             ),
+            rotations_add: self.choice(
+                "program.rotation",
+                raw.rotation.take(),
+                &[("absolute", false), ("by-distance-mode", true)],
+            ),
             outer_corners: self.choice(
                 "program.outer_corners",
                 raw.outer_corners.take(),

@@ -9,6 +9,7 @@ use crate::execute::state::fanuc_offsets::{FanucFrames, Scale, Turn};
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::frame_codes::FrameCode;
+use crate::syntax::modes::Distance;
 use crate::syntax::word_check::missing;
 
 /// Factors beyond this, or below one over it, are refused.
@@ -183,7 +184,8 @@ impl Interpreter {
         Ok(())
     }
 
-    /// R in degrees, about the two axes of the plane: the angle itself in G91, too (parameter 5400#0 RIN = 0).
+    /// R in degrees, about the two axes of the plane: the angle itself in G91, too, unless the control adds it there
+    /// (parameter 5400#0, RIN).
     fn turn_words(&self, block: &Block, coded: Coded<FrameCode>) -> Outcome<Turn> {
         let plane = self.state.modal.plane;
         if plane.normal().index() >= 3 {
@@ -198,6 +200,9 @@ impl Interpreter {
             .get(b'R')
             .ok_or_else(|| missing(coded.span, "G68", "R", "the angle"))?;
         let before = self.state.offsets.fanuc.frames.turn;
+        let adds =
+            self.options.fanuc.rotations_add && self.state.modal.distance == Distance::Incremental;
+        let base = before.filter(|_| adds).map_or(0.0, |turn| turn.degrees);
         let others = FanucFrames {
             turn: None,
             ..self.state.offsets.fanuc.frames
@@ -209,7 +214,7 @@ impl Interpreter {
         Ok(Turn {
             plane,
             about,
-            degrees,
+            degrees: base + degrees,
         })
     }
 }
