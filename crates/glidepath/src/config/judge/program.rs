@@ -190,16 +190,21 @@ impl Judge {
                     ("inch", Some(Units::Inch)),
                 ],
             ),
-            feed_at_start: self.choice(
-                "program.lathe_feed",
-                raw.lathe_feed.take(),
-                &[
-                    ("unsaid", FeedAtStart::Unsaid),
-                    ("minute", FeedAtStart::PerMinute),
-                    ("revolution", FeedAtStart::PerRevolution),
-                ],
-            ),
+            feed_at_start: self.feed_at_start(raw),
         }
+    }
+
+    /// What F of a FANUC's lathe counts before a program says it.
+    fn feed_at_start(&mut self, raw: &mut RawProgram) -> FeedAtStart {
+        self.choice(
+            "program.lathe_feed",
+            raw.lathe_feed.take(),
+            &[
+                ("unsaid", FeedAtStart::Unsaid),
+                ("minute", FeedAtStart::PerMinute),
+                ("revolution", FeedAtStart::PerRevolution),
+            ],
+        )
     }
 
     /// What the machine data of a SINUMERIK say.
