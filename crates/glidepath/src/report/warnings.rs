@@ -17,9 +17,9 @@ const CROSSING: &str = "a cycle begins below its R plane: the tool goes across t
 const NO_DWELL: &str =
     "Klipper reads over S of G4 and does not wait: write G4 P, in milliseconds, if it shall";
 
-const SECONDS: &str = "P without a decimal point counts seconds here, and waits for more than 10: in a FANUC's program, \
-                       which begins with %, too, it counts milliseconds; say which it is: --dialect fanuc or \
-                       --dialect linuxcnc, or `dialect` of [program] in the configuration; or write the point";
+const SECONDS: &str = "P without a decimal point counts seconds here, and it waits for more than 10: on a FANUC, whose programs \
+                       begin with %, too, it would be milliseconds: if it is one's, say --dialect fanuc, or set `dialect` of \
+                       [program] in the configuration; if seconds are meant, write the point";
 
 /// What stands in front of a warning in a text that says other things, too.
 pub const WARNING: &str = "warning: ";
