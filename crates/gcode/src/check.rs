@@ -9,7 +9,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::{Diagnostic, MAX_DIAGNOSTICS};
 use crate::execute::cycle_words::name;
 use crate::execute::program::Program;
-use crate::lacking::{Lacking, Unsaid};
+use crate::lacking::{Lacking, Unsaid, waits_by_whole_seconds};
 use crate::setup::options::Options;
 use crate::summary::part_box::{PartBox, PartBoxes};
 use crate::summary::survey::Survey;
@@ -146,6 +146,7 @@ fn read<R: BufRead>(
                 if unsaid.is_any() {
                     unsaid.look(program, &mut found.lacks);
                 }
+                found.lacks.seconds |= waits_by_whole_seconds(program);
                 program.items().iter().for_each(|item| see(program, item));
             }
             Some(Err(diagnostic)) => {

@@ -7,6 +7,7 @@ use glidepath_geometry::AxisVector;
 use crate::execute::program::Program;
 use crate::setup::siemens::LatheX;
 use crate::syntax::dialect::Dialect;
+use crate::syntax::modes::{CannedCycle, Motion, NonModal};
 
 /// What a program lacks. It is executed all the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -25,6 +26,46 @@ pub struct Lacking {
     pub crossing: bool,
     /// Klipper does not wait at a `G4 S`: it has P alone, in milliseconds.
     pub dwell: bool,
+    /// A program between percent lines, read as LinuxCNC's, has a dwell of more than 10 by a P without a decimal point:
+    /// these are seconds, and milliseconds on a FANUC.
+    pub seconds: bool,
+}
+
+/// A dwell by a P without a point that is longer than this may be meant in milliseconds, s.
+const LONG_DWELL_S: f64 = 10.0;
+
+/// Whether the block that was executed waits for long by a P without a decimal point, in a program that begins with a
+/// percent line, as FANUC's do, and is read as LinuxCNC's.
+pub(crate) fn waits_by_whole_seconds<R: BufRead>(program: &Program<R>) -> bool {
+    let block = program.block();
+    let may_be = program.percent && block.dialect == Dialect::LinuxCnc;
+    let Some(time_s) = block
+        .get(b'P')
+        .filter(|time_s| may_be && *time_s > LONG_DWELL_S)
+    else {
+        return false;
+    };
+    let codes = &block.codes;
+    let is_dwell = codes
+        .non_modal
+        .is_some_and(|coded| coded.code == NonModal::Dwell);
+    let is_cycle = codes.motion.is_some_and(|coded| {
+        matches!(
+            coded.code,
+            Some(Motion::Cycle(
+                CannedCycle::DrillDwell | CannedCycle::BoreStop | CannedCycle::BoreDwell
+            ))
+        )
+    });
+    if !is_dwell && !is_cycle {
+        return false;
+    }
+    let (text, span) = (program.here().text, block.span(b'P'));
+    let word = text.get(span.start..span.start + span.length);
+    let digits = word.and_then(|word| core::str::from_utf8(word.get(1..)?).ok());
+    // The words of a line with a point in them, or computed, are what was meant.
+    let digits = digits.map(str::trim).filter(|digits| !digits.contains('.'));
+    digits.and_then(|digits| digits.parse().ok()) == Some(time_s)
 }
 
 /// What a program has not said yet and nothing else says, and where it begins: a move from there needs it.

@@ -56,6 +56,8 @@
 //! | what | LinuxCNC | here |
 //! |---|---|---|
 //! | G33, G76 | begin where the axes have come to the spindle's speed | begin at an angle that does not depend on the speed; without an encoder ([`Options::threading`](crate::Options::threading)) refused |
+//! | G70, G71 beside G90.1 or G91.1 without words of a cycle | refused | Mach3's inches and millimetres, where these are in force |
+//! | G95 behind M5 | the move waits for the spindle | refused |
 //! | F beside G33 | the next feedrate | refused: the spindle gives the speed |
 //! | G33.1 | told to turn back at the depth, runs on below | the same, or told before ([`Threading::spindle_a`](crate::Threading::spindle_a)), and the way of ten revolutions below has to be inside the travel ([`Threading::overtravel`](crate::Threading::overtravel)); planned, and with I, P, Q and R, where the spindle is an axis ([`SpindleAxis`](crate::SpindleAxis)) |
 //! | G74, G84 | for a tap in a holder that gives way | the same, or rigid ([`Threading::rigid_tapping`](crate::Threading::rigid_tapping)) |

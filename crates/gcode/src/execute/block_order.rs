@@ -60,12 +60,15 @@ impl Interpreter {
             return Ok(AfterBlock::Continue);
         }
         let motion = self.motion_of(block)?;
+        let motion = motion.map(|motion| self.motion_to_machine_place(block, motion));
         if let Some(open) = &self.state.open.spline
             && !goes_on(block, open, motion)
         {
             return Err(interrupted(open, block.first_span()));
         }
         self.check_open_plane(block)?;
+        self.check_plane_of_cycle(block)?;
+        self.check_units_of_mach(block)?;
         self.settle_held(block, motion, out)?;
         check_words(block, motion)?;
         self.check_axes(block)?;

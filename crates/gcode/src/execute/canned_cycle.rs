@@ -66,6 +66,16 @@ pub(super) struct Hole {
     pub(super) clear: f64,
 }
 
+/// Depths of G73 and G83 in the units of the program's coordinates, which a FANUC's G51 does not scale.
+#[derive(Debug, Clone, Copy)]
+struct Pecks {
+    first: f64,
+    less: f64,
+    least: f64,
+    out_after: f64,
+    back: f64,
+}
+
 impl Interpreter {
     pub(crate) fn cycle(
         &mut self,
@@ -172,10 +182,11 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         if hole.sticky.peck > 0.0 {
-            let least = if hole.sticky.least > 0.0 {
-                hole.sticky.least
+            let pecks = self.pecks_of(&hole.sticky);
+            let least = if pecks.least > 0.0 {
+                pecks.least
             } else {
-                hole.sticky.peck
+                pecks.first
             };
             let holes = u32::try_from(places.len()).unwrap_or(u32::MAX);
             let pecks = (hole.r - hole.bottom) / least * f64::from(holes);
@@ -277,7 +288,7 @@ impl Interpreter {
             return self.tap_with_holder(block, turning, levels, dwell_s, out);
         }
         if peck > 0.0 {
-            self.pecks(block, hole, peck, out)?;
+            self.pecks(block, hole, out)?;
         }
         self.along(block, normal, hole.bottom, Pace::Feed, out)?;
         if cycle == CannedCycle::FineBore {
@@ -337,17 +348,33 @@ impl Interpreter {
             }
     }
 
-    /// All depths of G73 and G83 but the last.
-    fn pecks(&mut self, block: &Block, hole: Hole, peck: f64, out: &mut Vec<Item>) -> Outcome<()> {
+    /// The depths of a cycle as coordinates count.
+    fn pecks_of(&self, sticky: &StickyWords) -> Pecks {
         let normal = self.state.modal.plane.normal();
-        let mut stroke = peck;
+        let scale = match self.state.offsets.fanuc.frames.scale {
+            Some(_) => self.state.offsets.frame.scale_along(normal),
+            None => 1.0,
+        };
+        Pecks {
+            first: sticky.peck / scale,
+            less: sticky.less / scale,
+            least: sticky.least / scale,
+            out_after: sticky.out_after / scale,
+            back: BACK_OFF_MM / scale,
+        }
+    }
+
+    /// All depths of G73 and G83 but the last.
+    fn pecks(&mut self, block: &Block, hole: Hole, out: &mut Vec<Item>) -> Outcome<()> {
+        let normal = self.state.modal.plane.normal();
+        let pecks = self.pecks_of(&hole.sticky);
+        let mut stroke = pecks.first;
         let mut depth = hole.r - stroke;
         let mut out_at = hole.r;
         // A last peck of less is rounding.
         while depth > hole.bottom + BOTTOM_MM {
             self.along(block, normal, depth, Pace::Feed, out)?;
-            let out_after = hole.sticky.out_after;
-            let is_deep = out_after > 0.0 && out_at - depth >= out_after - BOTTOM_MM;
+            let is_deep = pecks.out_after > 0.0 && out_at - depth >= pecks.out_after - BOTTOM_MM;
             if is_deep {
                 out_at = depth;
             }
@@ -355,9 +382,9 @@ impl Interpreter {
                 self.along(block, normal, hole.r, Pace::Rapid, out)?;
             }
             // Never above the R plane, which a small Q would lead to.
-            let back = (depth + BACK_OFF_MM).min(hole.r);
+            let back = (depth + pecks.back).min(hole.r);
             self.along(block, normal, back, Pace::Rapid, out)?;
-            stroke = (stroke - hole.sticky.less).max(hole.sticky.least);
+            stroke = (stroke - pecks.less).max(pecks.least);
             depth -= stroke;
         }
         Ok(())

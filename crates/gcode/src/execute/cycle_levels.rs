@@ -40,6 +40,31 @@ impl Interpreter {
         [r, bottom]
     }
 
+    /// Refuses another plane on a FANUC while a cycle is in force: its levels are those of the axis before.
+    pub(crate) fn check_plane_of_cycle(&self, block: &Block) -> Outcome<()> {
+        let modal = &self.state.modal;
+        let is_on = matches!(modal.motion, Some(Motion::Cycle(_)));
+        let changed = block.codes.plane.filter(|plane| plane.code != modal.plane);
+        let (Some(plane), true, Dialect::Fanuc, false) =
+            (changed, is_on, block.dialect, block.is_lathe)
+        else {
+            return Ok(());
+        };
+        let ends = block
+            .codes
+            .motion
+            .is_some_and(|motion| !matches!(motion.code, Some(Motion::Cycle(_))));
+        if ends {
+            return Ok(());
+        }
+        let message = "another plane while a drilling cycle is in force";
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::CannedCycle, plane.span, message)
+                .because("R and the depth of the cycle are of the axis that it began with")
+                .help("write G80 before it, and the cycle with all its words behind it"),
+        )
+    }
+
     /// Refuses an R plane below the bottom.
     pub(super) fn check_levels(&self, block: &Block, [r, bottom]: [f64; 2]) -> Outcome<()> {
         if r >= bottom {

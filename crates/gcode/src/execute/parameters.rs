@@ -223,6 +223,14 @@ impl Parameters {
         self.levels.push(locals);
     }
 
+    /// The numbered locals of the call in progress.
+    pub(crate) fn locals(&self) -> [f64; FANUC_LOCALS] {
+        let unassigned = [self.unassigned; FANUC_LOCALS];
+        self.levels
+            .last()
+            .map_or(unassigned, |locals| locals.numbered)
+    }
+
     /// Ends a call, with the value it returned.
     pub(crate) fn leave(&mut self, value: Option<f64>) {
         if self.levels.len() > 1

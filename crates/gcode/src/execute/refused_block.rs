@@ -81,15 +81,20 @@ impl Interpreter {
         }
     }
 
-    /// Takes the machine to be where a move beyond its travel would have ended.
+    /// Takes the machine to be where a move beyond its travel, or into a corner that the tool does not fit into, would
+    /// have ended. Of a contour whose path is not known any more no more is told.
     pub(crate) fn adopt_place(&mut self, block: &Block, code: DiagnosticCode) {
         let is_move = self
             .state
             .modal
             .motion
             .is_some_and(|motion| !motion.may_lack_axes() || motion.is_arc());
-        let is_plain = block.codes.non_modal.is_none() && self.state.open.compensation.is_none();
-        if code == DiagnosticCode::SoftLimit && is_move && is_plain && block.has_axes() {
+        let is_plain = block.codes.non_modal.is_none();
+        let leads_somewhere = matches!(code, DiagnosticCode::SoftLimit | DiagnosticCode::Gouge);
+        if leads_somewhere && is_move && is_plain && block.has_axes() {
+            if self.state.open.compensation.take().is_some() {
+                (self.state.on_contour, self.state.leaving_contour) = (false, false);
+            }
             self.take_polar_words(block);
             if let Ok(target) = self.target(block) {
                 self.state.position = target;

@@ -18,6 +18,9 @@ use crate::syntax::expression::value::{open_expression, parameter, value};
 use crate::syntax::letters::{Letters, Slot};
 use crate::syntax::plain_line::WordSink;
 
+/// Words of G70 and G71 of a lathe.
+const WORDS_OF_LATHE_CYCLES: Letters = Letters::of(b"QDEPIRXYZABCUVW");
+
 impl Block {
     /// Fills the block from the text of a line.
     pub(crate) fn parse(&mut self, text: &[u8], scope: &dyn Scope) -> Outcome<()> {
@@ -111,7 +114,15 @@ impl Block {
             }
         }
         self.count_increments(scope);
+        self.take_units_of_mach();
         self.check_spindle_number(spindle)
+    }
+
+    /// G70 and G71 that have no word of a cycle may be Mach3's.
+    fn take_units_of_mach(&mut self) {
+        if self.dialect == Dialect::LinuxCnc && !self.has_any(WORDS_OF_LATHE_CYCLES) {
+            self.codes.take_units_of_mach();
+        }
     }
 
     /// Refuses the number of a spindle where no word tells a spindle something.

@@ -41,6 +41,8 @@ pub(crate) struct Codes {
     pub(crate) arc_distance: Option<Coded<Distance>>,
     pub(crate) feed_mode: Option<Coded<FeedMode>>,
     pub(crate) units: Option<Coded<Units>>,
+    /// G70 and G71 of Mach3 beside G90.1 or G91.1: inches and millimetres, which have to be in force already.
+    pub(crate) units_of_mach: Option<Coded<Units>>,
     /// F counts millimetres whatever the unit is (G70, G71 of SINUMERIK).
     pub(crate) feeds_in_mm: bool,
     pub(crate) cutter_radius: Option<Coded<CutterRadius>>,
@@ -181,6 +183,21 @@ impl Codes {
             990 => set(&mut self.retract, Retract::RPlane, span),
             _ => Err(refused_g(tenths, value, span)),
         }
+    }
+
+    /// G70 and G71 beside G90.1 or G91.1 are no cycles, which would have words of their own: posts for Mach3 write
+    /// inches and millimetres so.
+    pub(crate) fn take_units_of_mach(&mut self) {
+        let Some(Coded { code, span }) = self.motion.filter(|_| self.arc_distance.is_some()) else {
+            return;
+        };
+        let units = match code {
+            Some(Motion::Lathe(LatheCycle::Finish)) => Units::Inch,
+            Some(Motion::Lathe(LatheCycle::Turn(Pockets::Cut))) => Units::Millimetre,
+            _ => return,
+        };
+        self.motion = None;
+        self.units_of_mach = Some(Coded { code: units, span });
     }
 
     /// True if the block has any code.

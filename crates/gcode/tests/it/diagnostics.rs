@@ -1,7 +1,7 @@
 //! Tests of what is refused: kind, line and column of the diagnostic for each.
 
 use crate::support::listed;
-use glidepath_gcode::{AxisTravel, Machine, Options, Program, Report, check};
+use glidepath_gcode::{AxisTravel, Dialect, Machine, Options, Program, Report, check};
 use glidepath_geometry::Axis;
 use glidepath_program::{Item, ItemKind, Rate};
 use proptest::prelude::*;
@@ -262,4 +262,32 @@ proptest! {
             prop_assert!((-50.001..=100.001).contains(&p), "{p}");
         }
     }
+}
+
+#[test]
+fn long_dwells_without_a_point_between_percent_lines_are_told() {
+    let waits = |text: &str, dialect: Dialect| {
+        let options = Options {
+            dialect,
+            ..Options::default()
+        };
+        check(text.as_bytes(), options).lacks.seconds
+    };
+    for text in [
+        "%\nG4 P500\nM2",
+        "%\nG4 P 11\nM2\n%",
+        "%\nF100\nG82 X1 Z-1 R1 P50\nM2",
+    ] {
+        assert!(waits(text, Dialect::LinuxCnc), "{text}");
+    }
+    for text in [
+        "G4 P500\nM2",
+        "%\nG4 P500.\nM2",
+        "%\nG4 P10\nM2",
+        "%\n#1=500\nG4 P#1\nM2",
+        "%\nG64 P20\nG0 X1\nM2",
+    ] {
+        assert!(!waits(text, Dialect::LinuxCnc), "{text}");
+    }
+    assert!(!waits("%\nG4 P500\nM30", Dialect::Fanuc));
 }

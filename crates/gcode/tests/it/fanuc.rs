@@ -2,11 +2,12 @@
 
 use glidepath_gcode::{
     Arctangent, FanucParameters, Machine, OffsetMemory, Options, PointInput, Program, RemarkKind,
-    check,
+    Tool, ToolTable, check,
 };
 use glidepath_geometry::Axis;
 use glidepath_program::{Event, ItemKind};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use crate::support::listed;
 
@@ -277,11 +278,20 @@ fn offsets_are_set_as_the_control_sets_them() {
 fn coordinates_are_turned_scaled_and_mirrored() {
     assert_eq!(last("G68 X10 Y0 R90.\nG0 X12 Y0"), [10.0, 2.0, 0.0]);
     assert_eq!(last("G68 X0 Y0 R90.\nG69\nG0 X12 Y0"), [12.0, 0.0, 0.0]);
-    // In G91 the angle is added.
+    // In G91 R is the angle, too.
     assert_eq!(
-        last("G68 X0 Y0 R30.\nG91 G68 R60.\nG90 G0 X10 Y0"),
+        last("G68 X0 Y0 R30.\nG91 G68 R90.\nG90 G0 X10 Y0"),
         [0.0, 10.0, 0.0]
     );
+    let added = Options {
+        fanuc: FanucParameters {
+            rotations_add: true,
+            ..options().fanuc
+        },
+        ..options()
+    };
+    let found = ends_with("G68 X0 Y0 R30.\nG91 G68 R60.\nG90 G0 X10 Y0", added);
+    assert_eq!(found, [[0.0, 10.0, 0.0]]);
     assert_eq!(last("G51 X10 Y0 P2000\nG0 X15 Y3"), [20.0, 6.0, 0.0]);
     assert_eq!(last("G51 X10 Y0 P2.\nG0 X15 Y3"), [20.0, 6.0, 0.0]);
     assert_eq!(last("G51 X0 Y0 I-1. J1.\nG0 X15 Y3"), [-15.0, 3.0, 0.0]);
@@ -416,4 +426,36 @@ fn the_tip_is_followed_on_machines_with_five_axes_alone() {
     finds("G43.4 H1", &["1:1 not-supported"]);
     finds("G68.2 X1 J30", &["1:1 not-supported"]);
     finds("G254", &["1:1 not-supported"]);
+}
+
+#[test]
+fn polar_words_wait_for_both_a_radius_and_an_angle() {
+    finds("G0 X10. Y0\nG16 Y90.", &["2:5 polar"]);
+    finds("G0 X10.\nG16\nG91 Y90.", &["3:5 polar"]);
+    finds("G0 Y10.\nG16 X5.", &["2:5 polar"]);
+    // G15 forgets them; a block without either goes nowhere.
+    finds("G16 G0 X5. Y9.\nG15\nG16 Y90.", &["3:5 polar"]);
+    assert_eq!(last("G16 G0 Z3.\nX5. Y0.\nY90."), [0.0, 5.0, 3.0]);
+}
+
+#[test]
+fn a_contour_that_the_tool_does_not_fit_into_is_told_once() {
+    let text = "G18 G0 Z3.564 X-18.091\nG41 D2 G1 Z0. X0. F2000\nG1 Z-30.423 X17.183\nG1 Z-63.25 X-2.186\n\
+        G2 Z-56.581 X-9.983 R15.\nG1 Z-36.821 X14.023\nG2 Z-5.938 X-11.398 K15.4416 I-12.7104\n\
+        G1 Z-11.919 X-47.295\nG40 G1 Z-0.082 X-61.433\nM30";
+    let mut tools = ToolTable::new();
+    let wide = Tool {
+        diameter_mm: 16.0,
+        ..Tool::default()
+    };
+    tools.set(2, wide);
+    let options = Options {
+        tools: Some(Arc::new(tools)),
+        ..options()
+    };
+    let found = listed(&check(text.as_bytes(), options));
+    assert!(
+        found.len() == 1 && found[0].ends_with(" gouge"),
+        "{found:?}"
+    );
 }

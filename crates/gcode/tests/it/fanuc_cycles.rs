@@ -7,6 +7,7 @@ use glidepath_geometry::Axis;
 use glidepath_program::{Event, ItemKind, Limits};
 
 use crate::fanuc_calls::{ends, finds, options};
+use crate::support::listed;
 
 pub(crate) fn last(text: &str) -> [f64; 3] {
     *ends(text).last().expect("a move")
@@ -292,4 +293,31 @@ fn statements_for_devices_and_names_stand_alone() {
         "POPEN\nDPRNT[X#100[53]] (AT X)\nBPRNT[X#100[3]];\nSETVN 100[A,B] ;\nPCLOS",
         &[],
     );
+}
+
+#[test]
+fn a_dwell_has_one_time_and_no_place() {
+    for text in ["G0 X5. G4 P500", "G4 X1. P500", "G4 X1. U1."] {
+        let found = listed(&check(text.as_bytes(), options()));
+        assert!(found[0].ends_with(" ambiguous-word"), "{text} {found:?}");
+    }
+    finds("G0 Y5. G4 P500", &["1:4 unused-word"]);
+    assert_eq!(
+        dwells("G4 P500\nG4 X1.5\nG0 G4 P2\nG4 F100 P3"),
+        [0.5, 1.5, 0.002, 0.003]
+    );
+}
+
+#[test]
+fn the_plane_changes_behind_a_cycle_and_not_in_it() {
+    let cycle = "G0 Z20\nG81 X1 Y2 Z-5 R2 F100\n";
+    finds(&format!("{cycle}G18 X3 Z4"), &["3:1 canned-cycle"]);
+    finds(&format!("{cycle}G19\nG80"), &["3:1 canned-cycle"]);
+    finds(
+        &format!("{cycle}G18 G82 X3 Y-4 Z2 R2"),
+        &["3:1 canned-cycle"],
+    );
+    finds(&format!("{cycle}G17 X3"), &[]);
+    finds(&format!("{cycle}G80 G18\nG0 X3"), &[]);
+    finds(&format!("{cycle}G0 G18 X3 Z20"), &[]);
 }

@@ -373,3 +373,17 @@ fn a_profile_that_turns_back_along_z_says_whose_rule_that_is() {
     assert_eq!(listed(&report), ["4:8 canned-cycle"]);
     assert!(report.diagnostics[0].reason.contains("alarm 064"));
 }
+
+#[test]
+fn a_feed_per_revolution_needs_a_spindle_that_was_not_stopped() {
+    let found = |text: &str| listed(&check(text.as_bytes(), options()));
+    let start = "G99 G97 S500 M3\nG0 X50. Z2.\nG1 Z-5. F.2\nM5\n";
+    assert_eq!(found(&format!("{start}G1 X52.\nM30")), ["5:1 spindle"]);
+    for text in ["M3\nG1 X52.", "G0 X52.", "G98 G1 X52. F100.", "G1 X52. M3"] {
+        assert_eq!(
+            found(&format!("{start}{text}\nM30")),
+            Vec::<String>::new(),
+            "{text}"
+        );
+    }
+}

@@ -377,3 +377,57 @@ fn compensation_begins_beside_the_second_move() {
         &["3:1 cutter-radius"],
     );
 }
+
+#[test]
+fn g51_scales_the_levels_of_a_cycle_and_not_its_pecks() {
+    let turns = |text: &str| -> Vec<f64> { ends(text).iter().map(|end| end[2]).collect() };
+    // R2 and Z-20 are 1 and -10 of the machine; the strokes stay 4.
+    let found = turns("G0 Z20.\nG51 X0 Y0 Z0 P500\nG99 G83 X10. Z-20. R2. Q4. F100");
+    assert_eq!(
+        found,
+        [
+            20.0, 20.0, 1.0, -3.0, 1.0, -2.746, -7.0, 1.0, -6.746, -10.0, 1.0
+        ]
+    );
+    let found = turns("G0 Z20.\nG51 X0 Y0 Z0 P500\nG99 G73 X10. Z-20. R2. Q4. F100");
+    assert_eq!(
+        found,
+        [20.0, 20.0, 1.0, -3.0, -2.746, -7.0, -6.746, -10.0, 1.0]
+    );
+    // The words of a block before count without its scale.
+    let kept = "G0 Z20.\nG99 G83 X10. Z-8. R0 Q4. F100\nG51 X0 Y0 Z0 P2.\nX20.";
+    let found = turns(kept);
+    assert_eq!(
+        found[found.len() - 12..],
+        [
+            0.0, -4.0, 0.0, -3.746, -8.0, 0.0, -7.746, -12.0, 0.0, -11.746, -16.0, 0.0
+        ]
+    );
+}
+
+#[test]
+fn g53_goes_at_rapid_on_a_fanuc_and_leaves_g1_in_force() {
+    let rates = |text: &str, options: Options| -> Vec<Rate> {
+        Program::new(text.as_bytes(), options)
+            .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+            .filter_map(|item| match item.kind {
+                ItemKind::Move { rate, .. } => Some(rate),
+                _ => None,
+            })
+            .collect()
+    };
+    let text = "G1 X5. F600\nG53 X7.\nG53 G1 Y3.\nX9.";
+    let feed = Rate::Feed(10.0);
+    assert_eq!(
+        rates(text, options()),
+        [feed, Rate::Rapid, Rate::Rapid, feed]
+    );
+    let haas = Options {
+        fanuc: FanucParameters {
+            offset_memory: OffsetMemory::Haas,
+            ..options().fanuc
+        },
+        ..options()
+    };
+    assert_eq!(rates(text, haas), [feed; 4]);
+}

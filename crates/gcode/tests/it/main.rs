@@ -35,6 +35,7 @@ mod fanuc_lathe_words;
 mod fanuc_lathes;
 mod fanuc_lengthening;
 mod fanuc_lengths;
+mod fanuc_macros;
 mod fanuc_mill_words;
 mod fanuc_mirror_switch;
 mod fanuc_patterns;

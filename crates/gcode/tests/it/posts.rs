@@ -13,6 +13,8 @@ use glidepath_gcode::{Connections, Dialect, Machine, Options, Program, Tool, Too
 use glidepath_geometry::Axis;
 use glidepath_program::{ItemKind, Rate};
 
+use crate::support::listed;
+
 /// Lengths of tools 1 to 4, mm.
 const LENGTHS: [f64; 4] = [80.0, 62.5, 101.25, 55.0];
 /// Parts that are made.
@@ -450,4 +452,29 @@ fn lathe_posts_write_the_same_shaft() {
         let found = finish.iter().all(|place| left.any(|end| near(end, place)));
         assert!(found, "{text}\n{ends:?}");
     }
+}
+
+/// What Vectric's posts for Mach2 and Mach3 begin with.
+#[test]
+fn g70_and_g71_beside_g91_1_are_units_that_are_in_force() {
+    let program = |first: &str, second: &str| {
+        format!(
+            "{first}\n{second}\nT1M06\nG00Z5.0000\nX1.0Y1.0\nG2X3.0Y1.0I1.0J0.0F100.0\nG1X5.\nM30\n"
+        )
+    };
+    let options = Options {
+        connections: Connections::Simulated,
+        ..Options::default()
+    };
+    let found = |text: &str| listed(&check(text.as_bytes(), options.clone()));
+    let none = Vec::<String>::new();
+    let (mm, inch) = ("G00G21G17G90G40G49G80", "G00G20G17G90G40G49G80");
+    assert_eq!(found(&program(mm, "G71G91.1")), none);
+    assert_eq!(found(&program(inch, "G70G91.1")), none);
+    assert_eq!(found(&program(inch, "N20 G91.1 G70")), none);
+    assert_eq!(found(&program(mm, "G70G91.1")), ["2:1 ambiguous-word"]);
+    assert_eq!(found(&program(inch, "G71G91.1")), ["2:1 ambiguous-word"]);
+    // Alone, and with words of a cycle, they are a lathe's.
+    assert_eq!(found("G21\nG71\nM30")[0], "2:1 missing-word");
+    assert_ne!(found("G21\nG71 G91.1 Q100 D1\nM30"), none);
 }

@@ -77,6 +77,7 @@ pub(super) struct RawProgram {
     pub(super) bore_shift: Optional<String>,
     pub(super) outer_corners: Optional<String>,
     pub(super) roll_over: Optional<String>,
+    pub(super) rotation: Optional<String>,
     pub(super) lathe_feed: Optional<String>,
     pub(super) unwind: Optional<String>,
     pub(super) tool_change: Optional<String>,

@@ -17,6 +17,10 @@ const CROSSING: &str = "a cycle begins below its R plane: the tool goes across t
 const NO_DWELL: &str =
     "Klipper reads over S of G4 and does not wait: write G4 P, in milliseconds, if it shall";
 
+const SECONDS: &str = "P without a decimal point counts seconds here, and it waits for more than 10: on a FANUC, whose programs \
+                       begin with %, too, it would be milliseconds: if it is one's, say --dialect fanuc, or set `dialect` of \
+                       [program] in the configuration; if seconds are meant, write the point";
+
 /// What stands in front of a warning in a text that says other things, too.
 pub const WARNING: &str = "warning: ";
 
@@ -28,6 +32,7 @@ pub fn warnings(lacks: Lacking) -> impl Iterator<Item = &'static str> {
         (lacks.diameter, NO_DIAMETER),
         (lacks.crossing, CROSSING),
         (lacks.dwell, NO_DWELL),
+        (lacks.seconds, SECONDS),
     ];
     all.into_iter()
         .filter_map(|(is_told, words)| is_told.then_some(words))
@@ -45,10 +50,11 @@ mod tests {
             diameter: true,
             crossing: true,
             dwell: true,
+            seconds: true,
         };
         assert_eq!(
             warnings(all).collect::<Vec<_>>(),
-            [NO_END, NO_UNITS, NO_DIAMETER, CROSSING, NO_DWELL]
+            [NO_END, NO_UNITS, NO_DIAMETER, CROSSING, NO_DWELL, SECONDS]
         );
         let units = Lacking {
             units: true,

@@ -2,7 +2,9 @@
 
 use glidepath_program::{Event, Item, ItemKind};
 
-use crate::diagnostic::block_diagnostic::Outcome;
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::spindle::SpindleDirection;
@@ -31,6 +33,11 @@ impl Interpreter {
             });
         }
         self.check_gear_speed(block)?;
+        // A code of the machine's builder may start it.
+        self.state.spindle.is_stopped = match codes.spindle {
+            Some(Coded { code, .. }) => code == 5,
+            None => self.state.spindle.is_stopped && codes.user.is_none(),
+        };
         if let Some(Coded { code, .. }) = codes.coolant {
             let coolant = &mut self.state.coolant;
             match code {
@@ -60,6 +67,9 @@ impl Interpreter {
             span,
         }) = codes.non_modal
         {
+            if block.dialect == Dialect::Fanuc {
+                check_one_time(block, span)?;
+            }
             let seconds = self.dwell_seconds(block).ok_or_else(|| {
                 let word = match block.dialect {
                     Dialect::Siemens => "F, or S of a spindle that turns",
@@ -118,6 +128,20 @@ impl Interpreter {
         };
         self.push(out, ItemKind::Event(event));
     }
+}
+
+/// Refuses two times of FANUC's dwell: X and U of its block are seconds, and no places.
+fn check_one_time(block: &Block, span: SourceSpan) -> Outcome<()> {
+    let times = [b'X', b'U', b'P'].map(|letter| block.get(letter));
+    if times.iter().flatten().count() < 2 {
+        return Ok(());
+    }
+    let message = "two times of one dwell";
+    Err(
+        BlockDiagnostic::new(DiagnosticCode::AmbiguousWord, span, message)
+            .because("X, U and P of a block with G4 are all how long it is, and no place")
+            .help("write one of them; a place belongs into a block of its own"),
+    )
 }
 
 /// Seconds of a P word of FANUC and Haas.

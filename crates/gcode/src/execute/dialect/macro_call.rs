@@ -11,6 +11,7 @@ pub(crate) type Arguments = [f64; FANUC_LOCALS];
 pub(crate) struct ModalMacro {
     pub(crate) first: TapePlace,
     pub(crate) turns: u32,
+    /// The locals of its next call: G66 sets them, and each call leaves them to the next.
     pub(crate) arguments: Arguments,
     /// How many calls were in progress where it began: it is not called from inside of itself.
     pub(crate) level: usize,

@@ -46,6 +46,8 @@ pub(crate) struct SubprogramCall {
     pub(crate) caller: u32,
     /// True for G65: the subprogram has parameters of its own.
     pub(crate) own_parameters: bool,
+    /// True for the macro of G66, whose locals its next call has again.
+    pub(crate) keeps_locals: bool,
 }
 
 /// The blocks of a profile that are executed for G70, and where the tool goes behind them.

@@ -57,7 +57,9 @@ impl Interpreter {
         if let Some(word) = block.corner
             && word.kind == CornerKind::RoundAll
         {
-            self.state.rounds_mm = word.value * self.state.modal.units.mm();
+            // G70 and the like in the block come into force behind this, and are for its own words, too.
+            let units = block.codes.units.map(|coded| coded.code);
+            self.state.rounds_mm = word.value * units.unwrap_or(self.state.modal.units).mm();
         }
         self.take_corner_feeds(block)?;
         let changes_path = self.changes_path(block);

@@ -23,7 +23,7 @@ use crate::execute::motion::speed::{Pace, Speed};
 use crate::execute::state::modal::Feed;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::FeedMode;
+use crate::syntax::modes::{FeedMode, NonModal};
 
 impl Interpreter {
     /// Speed of a move along a segment, or one like it.
@@ -98,6 +98,21 @@ impl Interpreter {
             return Ok(Speed::Feed(feed));
         }
         let speed = self.state.spindle.speed;
+        // Programs of Haas' lathes have G53 behind M5 with G1 in force.
+        let is_place = block
+            .codes
+            .non_modal
+            .is_some_and(|coded| coded.code == NonModal::MachineCoordinates);
+        if self.state.spindle.is_stopped && !is_place {
+            let message = "a feed per revolution of a spindle that stands";
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::Spindle,
+                block.motion_span(),
+                message,
+            )
+            .because("M5 has stopped it, and the control would wait for it")
+            .help("write M3 or M4 before the move, or a feed per minute (G94; G98 on a FANUC's lathe)"));
+        }
         if speed <= 0.0 {
             let message = "a feed per revolution (G95) of a spindle without a speed";
             return Err(BlockDiagnostic::new(

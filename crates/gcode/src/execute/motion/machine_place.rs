@@ -11,7 +11,7 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::state::tip::Tilt;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::NonModal;
+use crate::syntax::modes::{Motion, NonModal};
 
 /// Angles below this are zero, degrees.
 const ZERO_DEG: f64 = 1e-9;
@@ -28,6 +28,19 @@ impl Interpreter {
         goes && matches!(block.dialect, Dialect::Fanuc | Dialect::Siemens)
             && self.options.five_axis.is_some()
             && self.state.tip.follows()
+    }
+
+    /// G53 of a FANUC goes at rapid, in G1, too, which stays in force; a Haas goes as G0 or G1 says.
+    pub(crate) fn motion_to_machine_place(&self, block: &Block, motion: Motion) -> Motion {
+        let is_place = block
+            .codes
+            .non_modal
+            .is_some_and(|coded| coded.code == NonModal::MachineCoordinates);
+        let is_fanuc = block.dialect == Dialect::Fanuc && !self.options.fanuc.is_haas();
+        match motion {
+            Motion::Linear if is_place && is_fanuc => Motion::Rapid,
+            motion => motion,
+        }
     }
 
     /// Refuses such a block where the rotary axes are away from zero and no plane is tilted.

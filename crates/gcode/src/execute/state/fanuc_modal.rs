@@ -91,6 +91,8 @@ pub(crate) struct Polar {
     pub(crate) centre: [f64; 2],
     pub(crate) radius_mm: f64,
     pub(crate) degrees: f64,
+    /// Whether a radius and an angle were written since G16.
+    pub(crate) is_said: [bool; 2],
 }
 
 impl Polar {

@@ -181,6 +181,14 @@ impl Frame {
         lengths.into_iter().fold(f64::INFINITY, f64::min)
     }
 
+    /// The factor by which it makes lengths along X, Y or Z of the program longer.
+    pub(crate) fn scale_along(&self, axis: Axis) -> f64 {
+        match axis.index() {
+            linear @ 0..3 => length(column(&self.matrix, linear)),
+            _ => 1.0,
+        }
+    }
+
     /// The greatest one.
     pub(crate) fn greatest_scale(&self) -> f64 {
         let lengths = [0, 1, 2].map(|axis| length(column(&self.matrix, axis)));

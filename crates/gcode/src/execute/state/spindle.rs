@@ -59,6 +59,9 @@ pub(crate) struct Spindle {
     /// S chooses the gear (M40 of SINUMERIK, or the machine's own choice).
     #[serde(default)]
     pub(crate) chooses_gear: bool,
+    /// M5 stopped it, and nothing that may start it came behind.
+    #[serde(default)]
+    pub(crate) is_stopped: bool,
     /// The next tapping cycle is rigid (M29).
     pub(crate) is_rigid: bool,
 }

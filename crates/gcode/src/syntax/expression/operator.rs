@@ -40,6 +40,9 @@ pub(crate) enum Operator {
     Differs,
 }
 
+/// The strength of comparisons.
+pub(crate) const COMPARISON: u8 = 2;
+
 /// Operators by name, longer names before their beginnings, with their strength.
 const OPERATORS: [(&[u8], Operator, u8); 15] = [
     (b"**", Operator::Power, 5),
@@ -48,12 +51,12 @@ const OPERATORS: [(&[u8], Operator, u8); 15] = [
     (b"MOD", Operator::Modulo, 4),
     (b"+", Operator::Plus, 3),
     (b"-", Operator::Minus, 3),
-    (b"EQ", Operator::Equal, 2),
-    (b"NE", Operator::NotEqual, 2),
-    (b"GT", Operator::Greater, 2),
-    (b"GE", Operator::GreaterOrEqual, 2),
-    (b"LT", Operator::Less, 2),
-    (b"LE", Operator::LessOrEqual, 2),
+    (b"EQ", Operator::Equal, COMPARISON),
+    (b"NE", Operator::NotEqual, COMPARISON),
+    (b"GT", Operator::Greater, COMPARISON),
+    (b"GE", Operator::GreaterOrEqual, COMPARISON),
+    (b"LT", Operator::Less, COMPARISON),
+    (b"LE", Operator::LessOrEqual, COMPARISON),
     (b"AND", Operator::And, 1),
     (b"OR", Operator::Or, 1),
     (b"XOR", Operator::Xor, 1),
@@ -69,12 +72,12 @@ const FANUC: [(&[u8], Operator, u8); 14] = [
     (b"-", Operator::Minus, 3),
     (b"XOR", Operator::BitXor, 3),
     (b"OR", Operator::BitOr, 3),
-    (b"EQ", Operator::Same, 2),
-    (b"NE", Operator::Differs, 2),
-    (b"GT", Operator::Greater, 2),
-    (b"GE", Operator::GreaterOrEqual, 2),
-    (b"LT", Operator::Less, 2),
-    (b"LE", Operator::LessOrEqual, 2),
+    (b"EQ", Operator::Same, COMPARISON),
+    (b"NE", Operator::Differs, COMPARISON),
+    (b"GT", Operator::Greater, COMPARISON),
+    (b"GE", Operator::GreaterOrEqual, COMPARISON),
+    (b"LT", Operator::Less, COMPARISON),
+    (b"LE", Operator::LessOrEqual, COMPARISON),
 ];
 
 /// The operators of a dialect, by name, longer names before their beginnings, with their strength.

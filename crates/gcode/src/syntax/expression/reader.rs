@@ -7,7 +7,7 @@ use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::expression::function::{Function, evaluate, function};
 use crate::syntax::expression::name::name;
-use crate::syntax::expression::operator::{apply, operators};
+use crate::syntax::expression::operator::{COMPARISON, apply, operators};
 use crate::syntax::expression::scope::{Parameter, Scope, no_parameter};
 
 /// Deepest nesting of brackets and of `#` of `#`.
@@ -171,6 +171,7 @@ impl Reader<'_, '_, '_> {
     pub(super) fn level(&mut self, strength: u8) -> Outcome<f64> {
         let bracket = self.cursor.at().saturating_sub(1);
         let mut left = self.primary(bracket)?;
+        let mut has_compared = false;
         loop {
             self.cursor.next_visible();
             let start = self.cursor.at();
@@ -182,6 +183,12 @@ impl Reader<'_, '_, '_> {
                 return Ok(left);
             };
             *self.cursor = ahead;
+            if own == COMPARISON && self.scope.dialect() == Dialect::Fanuc {
+                if has_compared {
+                    return Err(second_comparison(SourceSpan::new(start, self.cursor.at())));
+                }
+                has_compared = true;
+            }
             self.deeper()?;
             let right = if own == 5 {
                 self.primary(start)?
@@ -286,6 +293,15 @@ impl Reader<'_, '_, '_> {
         .because("only a named parameter can be without a value")
         .help("write EXISTS[#<name>]"))
     }
+}
+
+/// AND, OR and XOR of FANUC are done before comparisons, bit by bit.
+#[cold]
+fn second_comparison(span: SourceSpan) -> Box<BlockDiagnostic> {
+    let message = "a second comparison in one bracket";
+    BlockDiagnostic::new(DiagnosticCode::Expression, span, message)
+        .because("a FANUC takes AND, OR and XOR before comparisons, so that they would join the values beside them")
+        .help("write brackets round each comparison: [[#1 EQ 5] AND [#2 EQ 3]]")
 }
 
 #[cold]

@@ -360,3 +360,21 @@ fn a_corner_of_less_than_nothing_is_refused() {
         finds(&text, &["1:13 invalid-value"]);
     }
 }
+
+#[test]
+fn rndm_counts_in_the_units_of_its_block() {
+    let radius = |text: &str| {
+        let found = moves(text)
+            .into_iter()
+            .find_map(|(segment, ..)| match segment {
+                Segment::Arc(arc) => Some((arc.start_radius() * 1e6).round() / 1e6),
+                _ => None,
+            });
+        found.expect("a rounded corner")
+    };
+    for units in ["G700", "G70"] {
+        let text = format!("{units} RNDM=.1\nG1 X1 F10\nY1 RNDM=0");
+        assert_eq!(radius(&text), 2.54, "{units}");
+    }
+    assert_eq!(radius("G70\nG71 RNDM=2\nG1 X10 F10\nY10 RNDM=0"), 2.0);
+}

@@ -22,6 +22,16 @@ fn g58_and_g59_are_the_parts_of_trans() {
     ];
     let found: Vec<[f64; 2]> = ends(text).into_iter().map(|[x, y, _]| [x, y]).collect();
     assert_eq!(found, expected);
+    // TRANS with an axis leaves what G59 has set, and ends what ATRANS has added; alone it ends both.
+    assert_eq!(
+        xs("G59 X5\nTRANS X10\nG0 X0\nTRANS Y3\nX0\nTRANS\nX0"),
+        [15.0, 5.0, 0.0]
+    );
+    assert_eq!(
+        xs("ATRANS X5\nTRANS X10\nG0 X0\nG59 X1\nX0\nTRANS X20\nX0"),
+        [10.0, 11.0, 21.0]
+    );
+    assert_eq!(xs("G59 X5\nROT RPL=0\nTRANS X10\nG0 X0"), [10.0]);
     // They move nothing, and count without a frame, too.
     assert_eq!(xs("G0 X5\nG58 X10\nG0 X5"), [5.0, 15.0]);
     assert_eq!(xs("N10 G59X=2*5\nG0X1"), [11.0]);
@@ -140,4 +150,28 @@ fn programs_read_places_and_modes() {
     finds("R1=$AC_TIME", &["1:4 not-supported"]);
     finds("R1=$MN_USER_DATA[0]", &["1:4 not-supported"]);
     finds("$MC_X=1", &["1:1 not-supported"]);
+}
+
+#[test]
+fn g70_leaves_what_the_control_keeps_in_millimetres_and_g700_does_not() {
+    let length = |units: &str| format!("{units}\n$TC_DP3[2,1]=1\nG71\nT2 D1 M6\nG0 Z0");
+    assert_eq!(zs(&length("G70"), named_tools()), [1.0]);
+    assert_eq!(zs(&length("G700"), named_tools()), [25.4]);
+    let read = |units: &str| format!("$TC_DP3[2,1]=25.4\n{units}\nR1=$TC_DP3[2,1]\nG71 G0 Z=R1");
+    assert_eq!(zs(&read("G70"), named_tools()), [25.4]);
+    assert_eq!(zs(&read("G700"), named_tools()), [1.0]);
+    let system = |units: &str| {
+        format!("{units}\n$P_UIFR[1]=CTRANS(X,1)\n$P_UIFR[1,Y,TR]=2\nG71 G54 G0 X0 Y0")
+    };
+    assert_eq!(ends(&system("G70")), [[1.0, 2.0, 0.0]]);
+    assert_eq!(ends(&system("G700")), [[25.4, 50.8, 0.0]]);
+    let frame =
+        |units: &str| format!("{units}\n$P_PFRAME=CTRANS(X,1)\nR1=$P_PFRAME[X,TR]\nG71 G0 X0 Y=R1");
+    assert_eq!(ends(&frame("G70")), [[1.0, 1.0, 0.0]]);
+    assert_eq!(ends(&frame("G700")), [[25.4, 1.0, 0.0]]);
+    let place = |units: &str| format!("G0 X25.4\n{units}\nR1=$P_EP[X] R2=$AA_IM[X]\nG71 X=R1 Y=R2");
+    assert_eq!(ends(&place("G70"))[1], [25.4, 25.4, 0.0]);
+    assert_eq!(ends(&place("G700"))[1], [1.0, 1.0, 0.0]);
+    // Words of the workpiece follow G70, TRANS as X.
+    assert_eq!(xs("G70\nTRANS X1\nG0 X1"), [50.8]);
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glidepath_gcode::{Options, Program, ToolTable};
+use glidepath_gcode::{Options, Program, ToolTable, check};
 use glidepath_program::{Event, ItemKind};
 
 use super::{finds, options, xs};
@@ -86,4 +86,15 @@ fn words_read_what_those_before_them_assign() {
         xs("DEF INT AB[2]\nAB[0]=1.6 AB[1]=AB[0]\nG0 X=AB[1]"),
         [2.0]
     );
+}
+
+#[test]
+fn an_exponent_is_written_by_ex() {
+    for text in ["R1=1E3", "R1=1.5E-3", "R1=(2*1E+3)"] {
+        let report = check(text.as_bytes(), options());
+        let fault = &report.diagnostics[0];
+        assert_eq!(fault.code.as_str(), "malformed-number", "{text}");
+        assert!(fault.help.contains("EX"), "{fault}");
+    }
+    assert_eq!(xs("R1=1EX2\nG0 X=R1"), [100.0]);
 }

@@ -167,6 +167,11 @@ impl Judge {
                 raw.roll_over.take(),
                 &[("off", false), ("shorter-way", true)],
             ),
+            rotations_add: self.choice(
+                "program.rotation",
+                raw.rotation.take(),
+                &[("absolute", false), ("by-distance-mode", true)],
+            ),
             outer_corners: self.choice(
                 "program.outer_corners",
                 raw.outer_corners.take(),
@@ -185,16 +190,21 @@ impl Judge {
                     ("inch", Some(Units::Inch)),
                 ],
             ),
-            feed_at_start: self.choice(
-                "program.lathe_feed",
-                raw.lathe_feed.take(),
-                &[
-                    ("unsaid", FeedAtStart::Unsaid),
-                    ("minute", FeedAtStart::PerMinute),
-                    ("revolution", FeedAtStart::PerRevolution),
-                ],
-            ),
+            feed_at_start: self.feed_at_start(raw),
         }
+    }
+
+    /// What F of a FANUC's lathe counts before a program says it.
+    fn feed_at_start(&mut self, raw: &mut RawProgram) -> FeedAtStart {
+        self.choice(
+            "program.lathe_feed",
+            raw.lathe_feed.take(),
+            &[
+                ("unsaid", FeedAtStart::Unsaid),
+                ("minute", FeedAtStart::PerMinute),
+                ("revolution", FeedAtStart::PerRevolution),
+            ],
+        )
     }
 
     /// What the machine data of a SINUMERIK say.

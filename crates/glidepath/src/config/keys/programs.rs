@@ -106,6 +106,15 @@ pub(super) const PROGRAM: &[Key] = &[
          shorter way (ROAx 1, RABx 0); \"off\": they go to the angle that is written (ROAx 0)",
     ),
     key(
+        "program.rotation",
+        Takes::Choice {
+            of: &["absolute", "by-distance-mode"],
+        },
+        LeftOut::Value("\"absolute\""),
+        "what R of G68 is in G91 on a FANUC or Haas mill (parameter 5400#0, RIN; setting 73): \"absolute\": the angle; \
+         \"by-distance-mode\": it is added to the angle in force",
+    ),
+    key(
         "program.unwind",
         Takes::Choice {
             of: &["never", "rapids"],

@@ -120,6 +120,7 @@ impl<R: BufRead> Program<R> {
             again: turns - 1,
             caller: self.interpreter.state.fanuc.program,
             own_parameters: arguments.is_some(),
+            keeps_locals: false,
         });
         self.tape.go_to(first);
         let head = first
@@ -209,6 +210,9 @@ impl<R: BufRead> Program<R> {
         self.tape.go_to(call.back);
         self.interpreter.state.fanuc.program = call.caller;
         if call.own_parameters {
+            if call.keeps_locals {
+                self.keep_locals_of_modal_macro();
+            }
             self.parameters.leave(None);
         }
         if let Some((target, at)) = target {

@@ -1,5 +1,6 @@
 //! G66: a macro that is called behind every block that moves, until G67. Blocks of subprograms (M98, M97)
-//! are such blocks, too; those of macros are not.
+//! are such blocks, too; those of macros are not. Its local variables are set in the block of G66 alone: each call
+//! finds them as the one before has left them (FANUC, B-63944EN, modal call).
 
 use std::io::BufRead;
 
@@ -104,6 +105,23 @@ impl<R: BufRead> Program<R> {
             ..
         } = called.clone();
         self.enter_subprogram(first, turns, Some(&arguments))
-            .inspect_err(|_| self.end())
+            .inspect_err(|_| self.end())?;
+        if let Some(call) = self.tape.calls.last_mut().filter(|_| turns > 0) {
+            call.keeps_locals = true;
+        }
+        Ok(())
+    }
+
+    /// Keeps the locals of the macro, whose call was the last one and has ended.
+    pub(super) fn keep_locals_of_modal_macro(&mut self) {
+        let depth = self.tape.calls.len();
+        // A G66 of the macro itself is deeper.
+        if let Some(called) = self
+            .modal_macro
+            .as_mut()
+            .filter(|called| called.level <= depth)
+        {
+            called.arguments = self.parameters.locals();
+        }
     }
 }

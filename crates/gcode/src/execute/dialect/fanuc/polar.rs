@@ -1,11 +1,13 @@
 //! G16: the first axis of the plane is a radius, the second an angle.
 //!
 //! In G90 they are about the zero of the program. In G91 a radius is about where the tool is, and an
-//! angle is added to the last one. A word that is missing keeps its value.
+//! angle is added to the last one. A word that is missing keeps its value; what it is before the first one is not
+//! known, and refused.
 
-use glidepath_geometry::AXES;
+use glidepath_geometry::{AXES, Axis};
 
-use crate::diagnostic::block_diagnostic::Outcome;
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
+use crate::diagnostic::code::DiagnosticCode;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::axis_words::axis_value;
 use crate::execute::state::fanuc_modal::Polar;
@@ -32,6 +34,7 @@ impl Interpreter {
         let scale = self.state.modal.units.mm();
         for (axis, value) in block.axes() {
             if axis == first {
+                polar.is_said[0] = true;
                 polar.radius_mm = axis_value(axis, value, scale);
                 polar.centre = if incremental {
                     [here[first.index()], here[second.index()]]
@@ -39,6 +42,7 @@ impl Interpreter {
                     [0.0; 2]
                 };
             } else if axis == second {
+                polar.is_said[1] = true;
                 let degrees = block.degrees(AXIS_LETTERS[axis.index()]).unwrap_or(value);
                 polar.degrees = if incremental {
                     polar.degrees + degrees
@@ -64,6 +68,9 @@ impl Interpreter {
         let is_meant = block.codes.non_modal.is_none() && block.codes.frame.is_none();
         if !is_meant || axes.iter().all(|axis| values[*axis].is_none()) {
             return Ok(());
+        }
+        if let Some(unsaid) = polar.is_said.iter().position(|is_said| !is_said) {
+            return Err(unsaid_polar(block, unsaid, [first, second]));
         }
         let here = self.state.offsets.to_program(self.state.position);
         let incremental = self.state.modal.distance == Distance::Incremental;
@@ -102,4 +109,22 @@ impl Interpreter {
         }
         self.state.fanuc.polar = Some(polar);
     }
+}
+
+#[cold]
+fn unsaid_polar(block: &Block, which: usize, axes: [Axis; 2]) -> Box<BlockDiagnostic> {
+    let (name, said) = if which == 0 {
+        ("radius", axes[1])
+    } else {
+        ("angle", axes[0])
+    };
+    let letter = axes[which].letter();
+    let message = format!("{} with G16 before the first {name}", said.letter());
+    BlockDiagnostic::new(DiagnosticCode::Polar, block.axis_span(said), message)
+        .because(format!(
+            "no block since G16 has said the {name}, and what the control takes for it is not known"
+        ))
+        .help(format!(
+            "write {letter}, which is the {name}, into this block"
+        ))
 }

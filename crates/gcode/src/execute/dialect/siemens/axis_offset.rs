@@ -2,11 +2,12 @@
 //!
 //! TRANS says the first part, ATRANS the second one, and their sum is the shift of the frame. G58 puts
 //! another value in the place of the first part for the axes that it names, G59 in that of the
-//! second one; nothing moves.
+//! second one; nothing moves. TRANS with axes leaves what G59 has set (ONE, NC programming, 6FC5398-2EP40, p. 315), and
+//! ends what ATRANS has added; TRANS alone ends all.
 
 use std::io::BufRead;
 
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{AXES, AxisVector};
 
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
@@ -26,9 +27,24 @@ impl<R: BufRead> Program<R> {
             frame,
             coarse: AxisVector::zeros(),
             fine: AxisVector::zeros(),
+            is_own: [false; AXES],
         };
         let known = self.siemens.shift.filter(|known| known.frame == frame);
         known.or_else(|| (!frame.is_in_force()).then_some(none))
+    }
+
+    /// The fine parts that TRANS with these words leaves.
+    pub(super) fn fine_behind_shift(&self, values: &[FrameValue]) -> AxisVector {
+        let parts = self.shift_parts().filter(|_| !values.is_empty());
+        parts.map_or_else(AxisVector::zeros, |parts| {
+            AxisVector::from_fn(|axis, _| {
+                if parts.is_own[axis] {
+                    parts.fine[axis]
+                } else {
+                    0.0
+                }
+            })
+        })
     }
 
     /// Keeps the parts of the shift behind a frame, which has come behind `before`.
@@ -38,8 +54,15 @@ impl<R: BufRead> Program<R> {
         self.interpreter.state.offsets.frame = frame;
         let zero = AxisVector::zeros();
         let shift = || self.shift(values).map_or(zero, |shift| shift.shift);
+        let is_own = last.map_or([false; AXES], |last| last.is_own);
+        let has_fine = word.adds || word.kind == FrameKind::Shift && !values.is_empty();
         let parts = match (word.kind, word.adds) {
-            (FrameKind::Shift, false) => Some((shift(), zero)),
+            (FrameKind::Shift, false) => {
+                let kept = |axis: usize| last.filter(|last| has_fine && last.is_own[axis]);
+                let fine =
+                    AxisVector::from_fn(|axis, _| kept(axis).map_or(0.0, |last| last.fine[axis]));
+                Some((shift(), fine))
+            }
             (_, false) => Some((zero, zero)),
             // A shift that is turned is none of the axes.
             (FrameKind::Shift, true) => last
@@ -51,6 +74,7 @@ impl<R: BufRead> Program<R> {
             frame,
             coarse,
             fine,
+            is_own: if has_fine { is_own } else { [false; AXES] },
         });
     }
 
@@ -95,6 +119,7 @@ impl<R: BufRead> Program<R> {
             let axis = axis.index();
             by[axis] = to[axis] - part[axis];
             part[axis] = to[axis];
+            parts.is_own[axis] |= is_fine;
         }
         let offsets = &mut self.interpreter.state.offsets;
         parts.frame = Frame::shifted(by).with(&offsets.frame);

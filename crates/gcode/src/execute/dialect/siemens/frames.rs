@@ -73,6 +73,12 @@ impl<R: BufRead> Program<R> {
                 Frame::scaled(of_axes(&values, 1.0, |value| value)?)
             }
         };
+        let frame = match word.kind {
+            FrameKind::Shift if !word.adds => {
+                Frame::shifted(self.fine_behind_shift(&values)).with(&frame)
+            }
+            _ => frame,
+        };
         let offsets = &mut self.interpreter.state.offsets;
         let frame = if word.adds {
             offsets.frame.with(&frame)

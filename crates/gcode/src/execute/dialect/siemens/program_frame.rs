@@ -21,7 +21,6 @@ use crate::execute::dialect::siemens::flow::check_end;
 use crate::execute::dialect::siemens::frames::{check_no_contour, check_scale, check_shift};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::program::Program;
-use crate::execute::scope::in_units;
 use crate::execute::state::frame::Frame;
 use crate::syntax::dialect::siemens::expression::Evaluator;
 use crate::syntax::dialect::siemens::system_index::{Index, letters};
@@ -42,7 +41,7 @@ impl Interpreter {
         let frame = self.program_frame();
         let index = axis.index();
         match part {
-            b"TR" => Some(in_units(self, frame.shift, index)),
+            b"TR" => Some(self.in_variable_units(frame.shift, axis)),
             b"FI" => Some(0.0),
             _ if index >= 3 => None,
             b"RT" => frame.angles_deg().map(|degrees| degrees[index]),
@@ -57,7 +56,7 @@ impl Interpreter {
 
     /// The frame that a function makes, as CTRANS does.
     fn frame_of(&self, function: &[u8], values: &AxisValues, span: SourceSpan) -> Outcome<Frame> {
-        let mm = self.state.modal.units.mm();
+        let mm = self.variable_unit_mm();
         let linear = |fallback: f64| {
             let mut all = [fallback; 3];
             for (axis, value) in values {
@@ -127,7 +126,7 @@ impl<R: BufRead> Program<R> {
                 [Index::Axis(axis), Index::Word(part)] if part == b"TR" => {
                     let value = input.value()?;
                     let mut frame = self.interpreter.program_frame();
-                    let mm = self.interpreter.state.modal.units.mm();
+                    let mm = self.interpreter.variable_unit_mm();
                     let unit = if axis.is_rotary() { 1.0 } else { mm };
                     frame.shift[axis.index()] = value * unit;
                     frame

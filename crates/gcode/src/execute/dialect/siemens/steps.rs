@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{AXES, AxisVector};
 
 use crate::execute::dialect::tape::TapePlace;
 use crate::execute::state::frame::Frame;
@@ -71,6 +71,8 @@ pub(crate) struct ShiftParts {
     pub(super) coarse: AxisVector,
     /// ATRANS, G59.
     pub(super) fine: AxisVector,
+    /// The axes whose fine part G59 has set.
+    pub(super) is_own: [bool; AXES],
 }
 
 /// What a SINUMERIK program has besides the state of the interpreter.

@@ -151,6 +151,7 @@ impl<R: BufRead> Program<R> {
             again,
             caller: 0,
             own_parameters: false,
+            keeps_locals: false,
         });
         let own = Shared::new(Variables::at_level(self.tape.calls.len()));
         self.siemens.calls.push(CallState {

@@ -8,12 +8,13 @@
 //! ```
 //!
 //! A coordinate system that is in force changes with its next G54 or G505. Lengths of a tool are along
-//! Z, Y and X on a mill, along X, Z and Y on a lathe; `$TC_DP6` is its radius.
+//! Z, Y and X on a mill, along X, Z and Y on a lathe; `$TC_DP6` is its radius. Lengths are in millimetres, with G700
+//! in inches; G70 is not for them.
 
 use std::io::BufRead;
 use std::sync::Arc;
 
-use glidepath_geometry::Axis;
+use glidepath_geometry::{Axis, AxisVector};
 
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
@@ -79,7 +80,7 @@ impl<R: BufRead> Program<R> {
         let Some(number) = number else {
             return Err(unknown_part(&letters(b"$P_UIFR"), span));
         };
-        let mm = self.interpreter.state.modal.units.mm();
+        let mm = self.interpreter.variable_unit_mm();
         let scaled = |axis: Axis, value: f64| {
             if axis.is_rotary() { value } else { value * mm }
         };
@@ -149,7 +150,7 @@ impl<R: BufRead> Program<R> {
                     .help("remove it, or write what the tool is (120: an end mill)"),
             );
         }
-        let value_mm = value * self.interpreter.state.modal.units.mm();
+        let value_mm = value * self.interpreter.variable_unit_mm();
         self.interpreter.change_edge(edge, |tool| match part {
             EdgePart::Kind => {}
             EdgePart::Length(axis) => tool.offset[axis] = value_mm,
@@ -205,6 +206,22 @@ pub(super) fn system_number(number: f64) -> Option<usize> {
 }
 
 impl Interpreter {
+    /// The unit of length of the control's variables, mm. G70 and G71 are for what a program says of the workpiece:
+    /// tools, settable offsets and places stay in millimetres, as F does; with G700 and G710 they follow.
+    pub(super) const fn variable_unit_mm(&self) -> f64 {
+        self.feed_unit_mm()
+    }
+
+    /// One axis of a vector in the unit of the control's variables.
+    pub(super) fn in_variable_units(&self, vector: AxisVector, axis: Axis) -> f64 {
+        let unit = if axis.is_rotary() {
+            1.0
+        } else {
+            self.variable_unit_mm()
+        };
+        vector[axis.index()] / unit
+    }
+
     /// The tool and the edge that `[tool, edge]` names; with flat D numbers it is `[D]`, and the first edge of the line
     /// of that T.
     pub(super) fn edge_of(&self, index: &[Index]) -> Option<(u32, u32)> {

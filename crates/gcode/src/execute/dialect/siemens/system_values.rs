@@ -11,6 +11,8 @@
 //! | `$P_F`, `$P_S` | feed, speed of the spindle |
 //! | `$P_GG[6]`, `[8]`, `[14]` | which code of a group is in force: plane, coordinate system, distances |
 //! | `$P_SEARCH`, `$P_SIM`, `$P_ISTEST`, `$P_DRYRUN` | 0: the program is executed |
+//!
+//! Lengths are in millimetres; with G700 they are in inches, with G70 not.
 
 use glidepath_geometry::{Axis, Plane};
 
@@ -33,11 +35,12 @@ impl Interpreter {
         Some(match (name, index) {
             (b"$P_EP" | b"$AA_IW", _) => {
                 let share = if is_diameter { 2.0 } else { 1.0 };
-                share * coordinate(self, axis?.index())
+                let program = self.state.offsets.to_program(self.state.position);
+                share * self.in_variable_units(program, axis?)
             }
             // The machine's places have no diameters in the control's manual, nor are they said to be radii.
             (b"$AA_IM", _) if is_diameter => return None,
-            (b"$AA_IM", _) => in_units(self, self.state.position, axis?.index()),
+            (b"$AA_IM", _) => self.in_variable_units(self.state.position, axis?),
             // Asked for where a line is rewritten; no program can name these.
             (b"DIAM90", _) => f64::from(u8::from(self.state.diameter_by_distance)),
             (b"LATHE", []) => f64::from(u8::from(self.options.is_lathe())),
@@ -74,7 +77,7 @@ impl Interpreter {
             (b"$P_UIFR", [Index::Value(number), Index::Axis(axis), Index::Word(part)]) => {
                 let system = self.kept_system(system_number(*number)?);
                 match part.as_slice() {
-                    b"TR" => in_units(self, system.origin, axis.index()),
+                    b"TR" => self.in_variable_units(system.origin, *axis),
                     b"RT" if *axis == Axis::Z => system.rotation_deg,
                     b"RT" | b"FI" | b"MI" => 0.0,
                     _ => return None,
@@ -87,7 +90,7 @@ impl Interpreter {
             (b"$P_IFRAME", [Index::Axis(axis), Index::Word(part)]) => {
                 let system = self.state.offsets.system();
                 match part.as_slice() {
-                    b"TR" => in_units(self, system.origin, axis.index()),
+                    b"TR" => self.in_variable_units(system.origin, *axis),
                     b"RT" if *axis == Axis::Z => system.rotation_deg,
                     b"RT" | b"FI" | b"MI" => 0.0,
                     _ => return None,
@@ -110,7 +113,7 @@ impl Interpreter {
     }
 
     fn edge_value(&self, tool: Tool, part: EdgePart) -> Option<f64> {
-        let mm = self.state.modal.units.mm();
+        let mm = self.variable_unit_mm();
         Some(match part {
             EdgePart::Kind => return None,
             EdgePart::Length(axis) => tool.offset[axis] / mm,

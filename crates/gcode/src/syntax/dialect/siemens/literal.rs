@@ -52,6 +52,17 @@ impl Evaluator<'_> {
             text = format!("{text}e{}", String::from_utf8_lossy(exponent));
             self.at += 2 + signed + digits;
         }
+        let is_digit = |ahead: usize| self.peek(ahead).is_some_and(|byte| byte.is_ascii_digit());
+        let is_signed = matches!(self.peek(1), Some(b'+' | b'-')) && is_digit(2);
+        if self.peek(0) == Some(b'E') && (is_digit(1) || is_signed) {
+            let span = SourceSpan::new(start, self.at + 1);
+            let message = "an exponent behind E";
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::MalformedNumber, span, message)
+                    .because("a SINUMERIK writes EX between a number and its exponent")
+                    .help(format!("write {text}EX and the exponent")),
+            );
+        }
         let span = SourceSpan::new(start, self.at);
         match text.parse::<f64>() {
             Ok(value) => finite(value, span),
