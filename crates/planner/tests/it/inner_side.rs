@@ -1,5 +1,7 @@
 //! Tests of corners between arcs and lines: the motion is on their inner side.
 
+#![allow(clippy::expect_used, reason = "a test that fails may panic")]
+
 use crate::support::family::audited;
 use glidepath_audit::AuditSettings;
 use glidepath_audit::shape::ShapeAudit;
