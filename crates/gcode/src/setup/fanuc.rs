@@ -126,8 +126,8 @@ pub struct FanucParameters {
     pub outer_corners: OuterCorners,
     /// Whether A, B and C roll over (parameter 1008: ROAx 1, RABx 0): to an angle in G90 they turn the shorter way.
     pub rolls_over: bool,
-    /// Whether R of G68 is added in G91 to the angle in force (parameter 5400#0, RIN).
-    pub rotations_add: bool,
+    /// Whether R of G68 is the angle itself in G91, too, and not added to the one in force (parameter 5400#0, RIN).
+    pub rotations_are_absolute: bool,
 }
 
 impl FanucParameters {

@@ -278,19 +278,19 @@ fn offsets_are_set_as_the_control_sets_them() {
 fn coordinates_are_turned_scaled_and_mirrored() {
     assert_eq!(last("G68 X10 Y0 R90.\nG0 X12 Y0"), [10.0, 2.0, 0.0]);
     assert_eq!(last("G68 X0 Y0 R90.\nG69\nG0 X12 Y0"), [12.0, 0.0, 0.0]);
-    // In G91 R is the angle, too.
+    // In G91 R is added.
     assert_eq!(
-        last("G68 X0 Y0 R30.\nG91 G68 R90.\nG90 G0 X10 Y0"),
+        last("G68 X0 Y0 R30.\nG91 G68 R60.\nG90 G0 X10 Y0"),
         [0.0, 10.0, 0.0]
     );
-    let added = Options {
+    let absolute = Options {
         fanuc: FanucParameters {
-            rotations_add: true,
+            rotations_are_absolute: true,
             ..options().fanuc
         },
         ..options()
     };
-    let found = ends_with("G68 X0 Y0 R30.\nG91 G68 R60.\nG90 G0 X10 Y0", added);
+    let found = ends_with("G68 X0 Y0 R30.\nG91 G68 R90.\nG90 G0 X10 Y0", absolute);
     assert_eq!(found, [[0.0, 10.0, 0.0]]);
     assert_eq!(last("G51 X10 Y0 P2000\nG0 X15 Y3"), [20.0, 6.0, 0.0]);
     assert_eq!(last("G51 X10 Y0 P2.\nG0 X15 Y3"), [20.0, 6.0, 0.0]);

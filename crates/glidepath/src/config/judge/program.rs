@@ -167,10 +167,10 @@ impl Judge {
                 raw.roll_over.take(),
                 &[("off", false), ("shorter-way", true)],
             ),
-            rotations_add: self.choice(
+            rotations_are_absolute: self.choice(
                 "program.rotation",
                 raw.rotation.take(),
-                &[("absolute", false), ("by-distance-mode", true)],
+                &[("by-distance-mode", false), ("absolute", true)],
             ),
             outer_corners: self.choice(
                 "program.outer_corners",

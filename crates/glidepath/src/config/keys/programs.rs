@@ -108,11 +108,11 @@ pub(super) const PROGRAM: &[Key] = &[
     key(
         "program.rotation",
         Takes::Choice {
-            of: &["absolute", "by-distance-mode"],
+            of: &["by-distance-mode", "absolute"],
         },
-        LeftOut::Value("\"absolute\""),
-        "what R of G68 is in G91 on a FANUC or Haas mill (parameter 5400#0, RIN; setting 73): \"absolute\": the angle; \
-         \"by-distance-mode\": it is added to the angle in force",
+        LeftOut::Value("\"by-distance-mode\""),
+        "what R of G68 is in G91 on a FANUC or Haas mill (parameter 5400#0, RIN; setting 73): \"by-distance-mode\": it \
+         is added to the angle in force; \"absolute\": the angle",
     ),
     key(
         "program.unwind",

@@ -184,8 +184,8 @@ impl Interpreter {
         Ok(())
     }
 
-    /// R in degrees, about the two axes of the plane: the angle itself in G91, too, unless the control adds it there
-    /// (parameter 5400#0, RIN).
+    /// R in degrees, about the two axes of the plane; in G91 it is added to the angle in force, unless the control is set
+    /// not to (parameter 5400#0, RIN).
     fn turn_words(&self, block: &Block, coded: Coded<FrameCode>) -> Outcome<Turn> {
         let plane = self.state.modal.plane;
         if plane.normal().index() >= 3 {
@@ -200,8 +200,8 @@ impl Interpreter {
             .get(b'R')
             .ok_or_else(|| missing(coded.span, "G68", "R", "the angle"))?;
         let before = self.state.offsets.fanuc.frames.turn;
-        let adds =
-            self.options.fanuc.rotations_add && self.state.modal.distance == Distance::Incremental;
+        let adds = !self.options.fanuc.rotations_are_absolute
+            && self.state.modal.distance == Distance::Incremental;
         let base = before.filter(|_| adds).map_or(0.0, |turn| turn.degrees);
         let others = FanucFrames {
             turn: None,
