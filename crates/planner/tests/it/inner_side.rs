@@ -38,14 +38,3 @@ fn a_line_behind_an_arc_is_not_left_to_the_outer_side() {
         outside_mm("G21 G90 G94 G17 F4000\nG1 X-3 Y0\nG2 X4 Y0 I3.5 J0\nG1 X2 Y3.4641\nM2\n");
     assert!(outside_mm < 0.002, "{outside_mm}");
 }
-
-/// Chords of a small arc turn by more from one to the next than a corner does. Each was a run of its own, too
-/// short to have corners, and the motion was 0.048 mm outside of that behind the arc.
-#[test]
-fn corners_of_small_arcs_are_passed_on_their_inner_side() {
-    let outside_mm = outside_mm(
-        "G21 G90 G94 G17 F1535\nG1 X-5.5265 Y-4.664\nG2 X-5.1863 Y-4.0162 I0.17007 J0.32391\n\
-         G1 X-6.4987 Y-3.6399\nG2 X-6.196 Y-3.5266 I0.15133 J0.05669\nG1 X-8.0114 Y-4.7046\nM2\n",
-    );
-    assert!(outside_mm < 0.01, "{outside_mm}");
-}

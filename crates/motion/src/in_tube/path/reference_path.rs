@@ -139,12 +139,7 @@ impl TubePiece {
 
     /// It goes on where another one ends, at a corner or without one.
     fn follow(&mut self, last: &Self) {
-        // Those of what the pieces stand for, where they meet: the chords of a small arc turn by more from one to the
-        // next than a corner does.
-        let along = [
-            last.end - last.start - 4.0 * last.sagitta_vector,
-            self.end - self.start + 4.0 * self.sagitta_vector,
-        ];
+        let along = [last.end - last.start, self.end - self.start];
         let cos = along[0].dot(&along[1]) / (along[0].norm() * along[1].norm());
         if (2.0 - 2.0 * cos).max(0.0).sqrt() > SHARP {
             self.corner_before = Some(CornerBefore {
