@@ -15,7 +15,7 @@ use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::words::fanuc_systems::OtherSystem;
 use crate::syntax::expression::scope::Parameter;
 use crate::syntax::letters::{AXIS_LETTERS, AXIS_WORDS, Letters, Slot, WordValues};
-use crate::syntax::modes::Motion;
+use crate::syntax::modes::{Motion, NonModal};
 use crate::syntax::named_word::NamedWords;
 use crate::syntax::plain_line::{WordSink, read_plain};
 
@@ -193,6 +193,13 @@ impl Block {
         let word = self.unused(Letters::of(b"")).map(|(_, span)| span);
         let first = code.into_iter().chain(word).min_by_key(|span| span.start);
         first.unwrap_or_default()
+    }
+
+    /// True if its axis words are places of the machine (G53).
+    pub(crate) fn has_machine_coordinates(&self) -> bool {
+        self.codes
+            .non_modal
+            .is_some_and(|coded| coded.code == NonModal::MachineCoordinates)
     }
 
     /// Where a diagnostic about the motion of the block points.

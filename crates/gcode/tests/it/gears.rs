@@ -36,6 +36,13 @@ fn told(text: &str, options: &Options) -> Result<Vec<Event>, String> {
     Ok(events)
 }
 
+#[test]
+fn a_gear_does_not_start_the_spindle() {
+    let text = "M41 S300 M3\nG95 F.2 G1 X1\nM5\nM42\nG1 X2\nM2\n";
+    let refused = told(text, &options(Dialect::LinuxCnc, false)).unwrap_err();
+    assert!(refused.contains("a spindle that stands"), "{refused}");
+}
+
 const fn m(code: u32) -> Event {
     Event::MCode(code)
 }

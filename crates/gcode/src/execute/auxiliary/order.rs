@@ -33,10 +33,13 @@ impl Interpreter {
             });
         }
         self.check_gear_speed(block)?;
-        // A code of the machine's builder may start it.
-        self.state.spindle.is_stopped = match codes.spindle {
-            Some(Coded { code, .. }) => code == 5,
-            None => self.state.spindle.is_stopped && codes.user.is_none(),
+        // A code of the machine's builder may start it; a gear does not.
+        self.state.spindle.is_stopped = match (codes.spindle, codes.user) {
+            (Some(Coded { code, .. }), _) => code == 5,
+            (None, user) => {
+                let is_still = user.is_none_or(|user| self.is_gear_word(user.code));
+                self.state.spindle.is_stopped && is_still
+            }
         };
         if let Some(Coded { code, .. }) = codes.coolant {
             let coolant = &mut self.state.coolant;

@@ -23,7 +23,7 @@ use crate::execute::motion::speed::{Pace, Speed};
 use crate::execute::state::modal::Feed;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::{FeedMode, NonModal};
+use crate::syntax::modes::FeedMode;
 
 impl Interpreter {
     /// Speed of a move along a segment, or one like it.
@@ -99,11 +99,7 @@ impl Interpreter {
         }
         let speed = self.state.spindle.speed;
         // Programs of Haas' lathes have G53 behind M5 with G1 in force.
-        let is_place = block
-            .codes
-            .non_modal
-            .is_some_and(|coded| coded.code == NonModal::MachineCoordinates);
-        if self.state.spindle.is_stopped && !is_place {
+        if self.state.spindle.is_stopped && !block.has_machine_coordinates() {
             let message = "a feed per revolution of a spindle that stands";
             return Err(BlockDiagnostic::new(
                 DiagnosticCode::Spindle,

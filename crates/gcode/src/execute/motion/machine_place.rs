@@ -32,13 +32,9 @@ impl Interpreter {
 
     /// G53 of a FANUC goes at rapid, in G1, too, which stays in force; a Haas goes as G0 or G1 says.
     pub(crate) fn motion_to_machine_place(&self, block: &Block, motion: Motion) -> Motion {
-        let is_place = block
-            .codes
-            .non_modal
-            .is_some_and(|coded| coded.code == NonModal::MachineCoordinates);
         let is_fanuc = block.dialect == Dialect::Fanuc && !self.options.fanuc.is_haas();
         match motion {
-            Motion::Linear if is_place && is_fanuc => Motion::Rapid,
+            Motion::Linear if is_fanuc && block.has_machine_coordinates() => Motion::Rapid,
             motion => motion,
         }
     }

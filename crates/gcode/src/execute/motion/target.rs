@@ -7,17 +7,13 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::state::offsets::overlay;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::{Distance, NonModal};
+use crate::syntax::modes::Distance;
 
 impl Interpreter {
     /// Machine coordinates the axis words of a block lead to.
     pub(crate) fn target(&self, block: &Block) -> Outcome<AxisVector> {
         let mut values = self.axis_values(block)?;
-        let machine = block
-            .codes
-            .non_modal
-            .is_some_and(|o| o.code == NonModal::MachineCoordinates);
-        if machine {
+        if block.has_machine_coordinates() {
             // On a SINUMERIK the length of the tool stays in force: D0 takes it back.
             if block.dialect == Dialect::Siemens {
                 for (axis, value) in values.iter_mut().enumerate() {

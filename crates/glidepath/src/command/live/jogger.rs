@@ -97,7 +97,7 @@ impl Jogger {
         self.hand_asked(hand, Instant::now())
     }
 
-    /// The same, of what was asked for at a time: a stop behind it is not answered by motion.
+    /// The same, of what was asked for at a time: where the machine was stopped since, nothing moves.
     pub(in crate::command) fn hand_asked(&self, hand: Hand, at: Instant) -> bool {
         self.hands.send((hand, at)).is_ok()
     }
