@@ -13,6 +13,16 @@ pub(crate) struct ProgrammedRate {
 }
 
 impl ProgrammedRate {
+    /// The speeds of a piece under an override.
+    pub(crate) fn of_piece(&self, wanted: Override) -> PieceRate {
+        let rate_v = self.under(wanted);
+        let top_v = rate_v.min(self.axes_v);
+        PieceRate {
+            top_v,
+            feed_v: if self.rate.is_rapid() { top_v } else { rate_v },
+        }
+    }
+
     /// The rate under an override, mm/s.
     pub(crate) fn under(&self, wanted: Override) -> f64 {
         let programmed_v = match self.rate.feed_v() {
@@ -22,6 +32,32 @@ impl ProgrammedRate {
             None => self.axes_v * wanted.rapid_r,
         };
         programmed_v.min(self.rate.most_v())
+    }
+}
+
+/// Speeds of a piece under an override, mm/s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct PieceRate {
+    /// Along it: as fast as feed and axes allow.
+    pub(crate) top_v: f64,
+    /// By its feed alone; of a rapid the same.
+    pub(crate) feed_v: f64,
+}
+
+impl PieceRate {
+    /// Where the feed is slower than the axes.
+    #[cfg(test)]
+    pub(crate) const fn by_feed(feed_v: f64) -> Self {
+        Self {
+            top_v: feed_v,
+            feed_v,
+        }
+    }
+
+    /// True if both are the same, to the bit.
+    pub(crate) const fn is(&self, other: &Self) -> bool {
+        self.top_v.to_bits() == other.top_v.to_bits()
+            && self.feed_v.to_bits() == other.feed_v.to_bits()
     }
 }
 

@@ -126,7 +126,7 @@ impl InTubeEngine {
                 planner, ledger, ..
             }) => {
                 ledger.set_override(wanted);
-                planner.set_rates(|tag| ledger.rate_v(tag));
+                planner.set_rates(|tag| ledger.rate(tag));
             }
             Drive::Exact(exact) => exact.engine.set_override(wanted),
         }
@@ -218,7 +218,7 @@ impl InTubeEngine {
             stretch.length_s += entry.length_s;
             stretch.end = reference.end;
             reference.tag = stretch.ledger.push(entry);
-            reference.top_v = stretch.ledger.rate_v(reference.tag);
+            reference.rate = stretch.ledger.rate(reference.tag);
             stretch.planner.push(reference);
         }
     }

@@ -21,7 +21,7 @@ use crate::programmed_rate::{ProgrammedRate, axes_speed};
 use crate::rest::Rest;
 use crate::ruled::{self, BESIDE_MM, RULED_MM};
 use glidepath_geometry::{Segment, feed_length};
-use glidepath_program::{Item, ProgramLine, Settings, tolerance_norm};
+use glidepath_program::{Item, Override, ProgramLine, Settings, tolerance_norm};
 use std::collections::VecDeque;
 
 /// Share of the tolerance that a merged piece may be away from the chords it replaces.
@@ -151,7 +151,7 @@ impl Flattener {
         let left_mm = chord.tolerance_mm - chord.error_mm;
         let reference = Reference {
             end: chord.end,
-            top_v: rate.axes_v,
+            rate: rate.of_piece(Override::NONE),
             tolerance_mm: left_mm,
             tolerance_deg: left_mm / chord.mm_per_deg,
             sagitta_vector: chord.sagitta_vector,

@@ -2,7 +2,7 @@
 
 use crate::due_event::Beside;
 use crate::grid::Passing;
-use crate::programmed_rate::ProgrammedRate;
+use crate::programmed_rate::{PieceRate, ProgrammedRate};
 use glidepath_program::{Event, Override, ProgramLine};
 use std::collections::VecDeque;
 
@@ -61,12 +61,16 @@ impl Ledger {
         };
     }
 
-    /// The speed wanted on an entry, mm/s; that of the first one kept for those before it.
-    pub(crate) fn rate_v(&self, tag: u64) -> f64 {
+    /// The speeds wanted on an entry; those of the first one kept for those before it.
+    pub(crate) fn rate(&self, tag: u64) -> PieceRate {
         let index = usize::try_from(tag.saturating_sub(self.first)).unwrap_or(usize::MAX);
-        self.entries.get(index).map_or(f64::MIN_POSITIVE, |entry| {
-            entry.rate.under(self.wanted).min(entry.rate.axes_v)
-        })
+        self.entries.get(index).map_or(
+            PieceRate {
+                top_v: f64::MIN_POSITIVE,
+                feed_v: f64::MIN_POSITIVE,
+            },
+            |entry| entry.rate.of_piece(self.wanted),
+        )
     }
 
     /// The motion comes to the entry with a tag, and to a path position: forgets the entries before it. Tells the

@@ -2,7 +2,8 @@
 
 use crate::support::family::audited;
 use glidepath_audit::ViolationKind;
-use glidepath_program::{Corners, DirectionTolerance, Effort, Limits, Settings, Smoothing};
+use glidepath_geometry::AxisVector;
+use glidepath_program::{Corners, DirectionTolerance, Effort, Limits, Settings, Smoothing, Travel};
 
 /// A row of a relief, in arcs and lines.
 const ROW: &str = "G21
@@ -75,18 +76,29 @@ G2 X0.000000 Z0.000000 R0.125000
 M2
 ";
 
-/// How often the motion slows down in the middle of a move, with where and to what.
-#[track_caller]
-fn keeps_the_feed(text: &str) {
-    let settings = Settings {
-        limits: Limits::uniform(200.0, 2000.0, 40_000.0),
+/// A mill, with ends of travel if there are any.
+fn mill(travel: Option<Travel>) -> Settings {
+    let mut limits = Limits::uniform(200.0, 2000.0, 40_000.0);
+    limits.travel = travel.unwrap_or(limits.travel);
+    Settings {
+        limits,
         tolerance_mm: 0.02,
         direction: DirectionTolerance::default(),
         smoothing: Smoothing::Auto,
         corners: Corners::Inner,
         period_t: 0.004,
         effort: Effort::Optimal,
-    };
+    }
+}
+
+/// That the motion slows down nowhere in the middle of a move.
+#[track_caller]
+fn keeps_the_feed(text: &str) {
+    keeps_the_feed_with(text, mill(None));
+}
+
+#[track_caller]
+fn keeps_the_feed_with(text: &str, settings: Settings) {
     let report = audited("kept feed", text, settings, |_| {});
     let slow = report
         .tremors
@@ -120,4 +132,65 @@ fn a_bend_whose_end_is_seen_late_is_run_at_the_feed() {
 #[test]
 fn an_arc_that_begins_with_legs_is_run_at_the_feed() {
     keeps_the_feed(ROWS);
+}
+
+/// Lines of 1.4 mm between corners: X goes 1.4 µm back along the third, and the motion is 7.5 µm beside it, on the inner
+/// side of the corner before. It was not to turn round there, so no window found the inner side of the next corner, and
+/// it stopped.
+#[test]
+fn an_axis_beyond_the_end_of_its_run_may_come_back() {
+    let mut travel = Travel {
+        lowest: AxisVector::zeros(),
+        highest: AxisVector::zeros(),
+    };
+    travel.lowest[0] = -51.593_786;
+    travel.highest[1] = 101.230_482;
+    travel.highest[2] = 15.573_872;
+    keeps_the_feed_with(
+        "G21 G90 G94 G17 F328\nG1 X-51.304599 Y72.668246 Z6.529558\nG1 X-51.593786 Y73.309075 Z6.721894\n\
+         G1 X-49.797322 Y91.983160 Z15.573872\nG1 X-49.378367 Y93.354362 Z15.248732\n\
+         G1 X-49.379747 Y94.752028 Z14.672637\nG1 X-49.203881 Y97.372399 Z14.672637\n\
+         G1 X-49.119390 Y97.849311 Z14.672637\nG1 X-46.505537 Y100.670380 Z14.672637\n\
+         G1 X-46.375257 Y101.230482 Z14.204981\nM2\n",
+        mill(Some(travel)),
+    );
+}
+
+/// A line that X goes with A. A was ahead of X by half the tolerance behind the corner, which counted as progress, until
+/// the next window took it back with a jerk.
+#[test]
+fn a_rotary_axis_that_is_ahead_gains_nothing() {
+    let text = "G21 G90 G94 G17 F742\nG1 X6.33387 Y-0.75935 A0\nG1 X7.23763 Y-0.38892\n\
+                G1 X22.51367 A-13.1396\nM2\n";
+    let report = audited("ahead", text, mill(None), |_| {});
+    assert!(report.tremors.is_empty(), "{:#?}", report.tremors);
+}
+
+/// X goes 10 µm while A turns by 20°, as fast as it can. X may be as fast as the feed allows beside that: it could not
+/// come back to its line, and windows led nowhere.
+#[test]
+fn what_a_rotary_axis_holds_up_does_not_bind_the_others() {
+    let text = "G21 G90 G94 G17 F3209\nG1 A69.25231\nG1 A80.04606\nG1 X0.01064 A60.58166\nG1 A-61.50708\n\
+                G1 X0.13262 A-59.97085\nG1 X5.35468 A-72.3381\nG1 A-900\nM2\n";
+    let mut travel = Travel {
+        lowest: AxisVector::zeros(),
+        highest: AxisVector::zeros(),
+    };
+    (travel.lowest[3], travel.highest[3], travel.highest[0]) = (-900.0, 80.04606, 5.35468);
+    let mut limits = Limits::uniform(100.0, 10_000.0, 1e6);
+    limits.travel = travel;
+    let periods = |effort| {
+        let settings = Settings {
+            limits,
+            tolerance_mm: 0.05,
+            effort,
+            ..mill(None)
+        };
+        let mut count = 0_u32;
+        let report = audited("held up", text, settings, |_| count += 1);
+        assert!(report.is_clean(), "{report:#?}");
+        count
+    };
+    let (optimal, fast) = (periods(Effort::Optimal), periods(Effort::Fast));
+    assert!(optimal <= fast, "{optimal} periods, fast {fast}");
 }

@@ -140,6 +140,7 @@ mod tests {
 
     use super::*;
     use crate::in_tube::path::Reference;
+    use crate::programmed_rate::PieceRate;
     use glidepath_geometry::AxisVector;
 
     #[test]
@@ -150,7 +151,7 @@ mod tests {
         let mut path = ReferencePath::new(AxisVector::zeros());
         path.push(Reference {
             end,
-            top_v: 200.0,
+            rate: PieceRate::by_feed(200.0),
             tolerance_mm: 0.02,
             tolerance_deg: 0.02,
             sagitta_vector: AxisVector::zeros(),

@@ -1,5 +1,6 @@
 //! The path as the planner of a stretch is given it.
 
+use crate::programmed_rate::PieceRate;
 use glidepath_geometry::AxisVector;
 
 /// The part of a piece that one can lay a ruler to.
@@ -34,9 +35,9 @@ impl Straightness {
 pub(crate) struct Reference {
     /// Where it ends; it starts where the piece before it ended.
     pub(crate) end: AxisVector,
-    /// Largest path speed, in mm/s of [`glidepath_geometry::feed_length`], > 0 and finite. For a
+    /// Largest path speeds, in mm/s of [`glidepath_geometry::feed_length`], > 0 and finite. For a
     /// rapid: the speed at which some axis is at its limit.
-    pub(crate) top_v: f64,
+    pub(crate) rate: PieceRate,
     /// How far the motion may be from the path, and each vertex from the motion, in XYZ and in UVW,
     /// mm, > 0. At a vertex the smaller tolerance of both sides holds.
     pub(crate) tolerance_mm: f64,

@@ -12,10 +12,12 @@
 //! ```
 
 use super::direction::{Bounds, directional};
+use super::feed::counted_v;
 use super::reference::{Reference, Straightness};
 use super::sense::{PieceGeometry, Sense};
 use crate::feed_axes::counted_axes;
 use crate::joints::JointRows;
+use crate::programmed_rate::PieceRate;
 use crate::scurve::Profile;
 use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW, feed_length};
 use glidepath_program::Limits;
@@ -42,8 +44,11 @@ pub(crate) struct TubePiece {
     pub(crate) length_s: f64,
     /// Feed length from the start of the stretch to the start of the piece.
     pub(crate) start_s: f64,
-    /// Path speed by the feed.
+    /// Path speed by the feed and the axes.
     pub(crate) top_v: f64,
+    /// How fast the axes that the feed counts may go together, whatever the others do. Where it counts all that move, no
+    /// faster than along the piece.
+    pub(crate) counted_v: f64,
     /// Tolerance of the linear axes, mm.
     pub(crate) tolerance_mm: f64,
     /// Tolerance of the rotary axes together, degrees.
@@ -267,7 +272,8 @@ impl ReferencePath {
             end: piece.end,
             length_s: feed_length(&(piece.end - self.corner)),
             start_s: self.corner_s,
-            top_v: piece.top_v,
+            top_v: piece.rate.top_v,
+            counted_v: counted_v(&(piece.end - self.corner), &piece.rate),
             tolerance_mm: piece.tolerance_mm * keep_r,
             tolerance_deg: piece.tolerance_deg * keep_r,
             sagitta_vector: piece.sagitta_vector,
@@ -370,10 +376,10 @@ impl ReferencePath {
     }
 
     /// The largest speed of the ring.
-    pub(crate) fn top_v(&self) -> f64 {
+    pub(crate) fn counted_v(&self) -> f64 {
         self.pieces
             .iter()
-            .fold(0.0, |most, piece| most.max(piece.top_v))
+            .fold(0.0, |most, piece| most.max(piece.counted_v))
     }
 
     /// Drops the pieces before `index`.
@@ -384,14 +390,17 @@ impl ReferencePath {
     }
 
     /// Gives every piece of the ring the speed it is to have; true if one had another before.
-    pub(crate) fn set_rates(&mut self, mut rate_of: impl FnMut(u64) -> f64) -> bool {
-        let held = self.held.iter_mut().map(|held| (held.tag, &mut held.top_v));
+    pub(crate) fn set_rates(&mut self, mut rate_of: impl FnMut(u64) -> PieceRate) -> bool {
         let mut is_other = false;
-        for (tag, top_v) in held {
-            is_other |= exchange(top_v, rate_of(tag));
+        if let Some(held) = &mut self.held {
+            let before = core::mem::replace(&mut held.rate, rate_of(held.tag));
+            is_other |= !held.rate.is(&before);
         }
         for piece in &mut self.pieces {
-            let is_changed = exchange(&mut piece.top_v, rate_of(piece.tag));
+            let rate = rate_of(piece.tag);
+            let counted_v = counted_v(&(piece.end - piece.start), &rate);
+            let is_changed =
+                exchange(&mut piece.top_v, rate.top_v) | exchange(&mut piece.counted_v, counted_v);
             is_other |= is_changed;
             if let Some(machine) = self.machine.as_ref().filter(|_| is_changed) {
                 piece.ask_joints(&machine.0, &machine.1);

@@ -17,6 +17,7 @@ use crate::in_tube::SearchBias;
 use crate::in_tube::path::{Reference, Straightness};
 use crate::in_tube::period::Period;
 use crate::in_tube::window::PLAN_WORK;
+use crate::programmed_rate::PieceRate;
 use glidepath_audit::{Audit, AuditReport, AuditSettings, Sample};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Corners, Item, ItemKind, Limits, PathMode, Rate};
@@ -56,7 +57,7 @@ impl Case {
                 let _ = ends[0];
                 Reference {
                     end: ends[1],
-                    top_v: self.feed_v,
+                    rate: PieceRate::by_feed(self.feed_v),
                     tolerance_mm: self.tolerance_mm,
                     tolerance_deg: self.tolerance_mm,
                     sagitta_vector: AxisVector::zeros(),

@@ -6,6 +6,7 @@ use crate::in_tube::period::Period;
 use crate::in_tube::verify::FEED_SLACK;
 use crate::in_tube::window::SearchBias;
 use crate::joints::SharedJoints;
+use crate::programmed_rate::PieceRate;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Corners, Limits};
 
@@ -68,8 +69,8 @@ impl TubePlanner {
     /// Other speeds for the path from here on, by tag; the motion is planned again from the state
     /// handed out last. Where no speed is another one it stays: a thread cut under another override
     /// is the same to the bit.
-    pub(crate) fn set_rates(&mut self, rate_of: impl FnMut(u64) -> f64) {
-        let before_v = self.state.reference_path.top_v();
+    pub(crate) fn set_rates(&mut self, rate_of: impl FnMut(u64) -> PieceRate) {
+        let before_v = self.state.reference_path.counted_v();
         if !self.state.reference_path.set_rates(rate_of) {
             return;
         }

@@ -143,11 +143,11 @@ impl History {
         let pieces = near_start.of_period(&near_end, reference_path, reached);
         let feed_v = pieces
             .clone()
-            .fold(0.0_f64, |most, piece| most.max(piece.top_v));
+            .fold(0.0_f64, |most, piece| most.max(piece.counted_v));
         // Counted as the pieces count it: beside a rotary move, the least motion of XYZ is all that
         // the step's own feed length tells.
         let mut counted =
-            pieces.map(|piece| counted_length(piece, &step) / (piece.top_v * period_t));
+            pieces.map(|piece| counted_length(piece, &step) / (piece.counted_v * period_t));
         let is_slow = speed_v <= self.overspeed_v || counted.any(|ratio| ratio <= FEED_SLACK);
         self.recent = [position, self.recent[0], self.recent[1]];
         let [last, before, third, _] = self.states;

@@ -72,6 +72,22 @@ impl<const D: usize> ScaledSegment<D> {
         let mut axes = self.tangent.iter().zip(self.feed_axes);
         axes.all(|(tangent, counted)| counted > 0.0 || tangent.abs() <= 0.0)
     }
+
+    /// The direction in which way counts as progress; along the tangent it is one. Where the feed binds and does not
+    /// count every axis that moves, it is that of the feed: else a rotary axis that is ahead of the others by all of its
+    /// tolerance would count as progress, and would stay there.
+    pub(super) fn progress_direction(&self) -> [f64; D] {
+        if self.is_all_counted() || !self.is_feed_bound() {
+            return self.tangent;
+        }
+        let along = dot(&self.feed, &self.tangent);
+        self.feed.map(|feed| feed / along)
+    }
+
+    /// True if the feed sets the top speed, and no limit of an axis.
+    pub(super) fn is_feed_bound(&self) -> bool {
+        dot(&self.feed, &self.tangent) * self.top >= SLOWER
+    }
 }
 
 /// The path of a window, measured in tolerances.
@@ -227,8 +243,9 @@ impl<const D: usize> ScaledPath<D> {
         let counted = counted_axes(&displacement);
         for k in 0..self.moving {
             if counted.contains(&self.axes[k]) {
-                feed[k] = displacement[self.axes[k]] / piece.length_s * self.unit[k] / piece.top_v;
-                feed_axes[k] = self.unit[k] / piece.top_v;
+                feed[k] =
+                    displacement[self.axes[k]] / piece.length_s * self.unit[k] / piece.counted_v;
+                feed_axes[k] = self.unit[k] / piece.counted_v;
             }
         }
         let s = self

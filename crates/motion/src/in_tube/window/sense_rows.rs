@@ -37,6 +37,11 @@ pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
         if !sides.is_rest && segment.has_to_come_back(place.progress, (axis, at), sense) {
             continue;
         }
+        // Beyond the end of its run already: it came so from the inner side of the corner before, and has to come back
+        // to be on that of the next one.
+        if !sides.is_rest && sense * (at - sides.to) > 0.0 {
+            continue;
+        }
         let mut normal = [0.0; D];
         normal[axis] = sense / (BACK_R * radius);
         // An axis that rests in the last motion, as all do in the tail's rest, may be fast in the next one:

@@ -27,7 +27,7 @@ use super::scaled_path::ScaledPath;
 use super::solver::Problem;
 use super::spline::Grid;
 use super::tube::Layout;
-use super::way::{at_feed_r, turn_before, way_t};
+use super::way::{at_feed_r, counted_t, turn_before, way_t};
 
 /// Share of what counts as the feed from which on it is what binds: rounds may plan with as little as
 /// 0.995 of it.
@@ -68,10 +68,16 @@ fn way_on_curve_t<const D: usize>(
     k: usize,
     (grid, period_t, margin): (&Grid, f64, usize),
 ) -> Option<f64> {
-    let way_t = way_t(path, points, samples, (k, grid));
+    let segment = &path.segments[samples.piece[k - 1]];
+    let way_t = if segment.is_all_counted() {
+        way_t(path, points, samples, (k, grid))
+    } else if segment.is_feed_bound() {
+        counted_t(path, points, samples, (k, grid))
+    } else {
+        return None;
+    };
     let near_r = NEAR_FEED_R * at_feed_r(turn_before(points, (k, grid)));
-    let is_at_feed =
-        way_t >= near_r * period_t && path.segments[samples.piece[k - 1]].is_all_counted();
+    let is_at_feed = way_t >= near_r * period_t;
     (is_at_feed && !is_near_corner(path, samples, k, margin)).then_some(way_t)
 }
 

@@ -286,7 +286,12 @@ pub(crate) fn build<const D: usize>(
         problem.add_site(first, weights);
         let span = extents.of(path, i, style);
         add_tube(problem, layout, (k, &start), span);
-        problem.add_aim((first, weights), layout.aim(k), &segment.tangent);
+        let aim_direction = if style.counts_way {
+            segment.progress_direction()
+        } else {
+            segment.tangent
+        };
+        problem.add_aim((first, weights), layout.aim(k), &aim_direction);
         if samples.piece[k - 1] < i {
             add_corners(problem, layout, k);
         }

@@ -40,7 +40,7 @@ fn plan_with_change(case: &Case, after: usize, factor: f64) -> Vec<Period> {
     }
     planner.finish();
     let mut periods: Vec<_> = (0..after).map_while(|_| planner.next_period()).collect();
-    planner.set_rates(|_| factor * case.feed_v);
+    planner.set_rates(|_| PieceRate::by_feed(factor * case.feed_v));
     periods.extend(core::iter::from_fn(|| planner.next_period()));
     assert!(planner.is_over());
     periods
@@ -89,7 +89,7 @@ fn feeds_may_differ_from_piece_to_piece() {
     let mut planner = case.planner();
     let feeds = [100.0, 5.0, 50.0, 20.0];
     for (mut reference, feed_v) in case.references().into_iter().zip(feeds) {
-        reference.top_v = feed_v;
+        reference.rate = PieceRate::by_feed(feed_v);
         planner.push(reference);
     }
     planner.finish();
