@@ -77,7 +77,7 @@ pub use execute::state::tip::Tip;
 pub use lacking::Lacking;
 pub use setup::fanuc::{
     Arctangent, BoreShift, FanucControl, FanucParameters, FeedAtStart, OffsetMemory, OuterCorners,
-    PointInput,
+    PointInput, RotationStart,
 };
 pub use setup::firmware::Firmware;
 pub use setup::gears::{GearSpeeds, Gears};

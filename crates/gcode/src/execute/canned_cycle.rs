@@ -218,8 +218,13 @@ impl Interpreter {
             self.along(block, normal, level, Pace::Rapid, out)?;
         }
         for place in places {
-            let mut target = self.absolute_target(place);
-            if self.state.modal.distance == Distance::Absolute {
+            let mut place = *place;
+            let is_absolute = self.state.modal.distance == Distance::Absolute;
+            if is_absolute {
+                self.add_coordinate_before_turn(block, &mut place)?;
+            }
+            let mut target = self.absolute_target(&place);
+            if is_absolute {
                 target = self.rolled_over(block, target);
             }
             let way = target - self.state.position;

@@ -64,6 +64,18 @@ pub enum Arctangent {
     Signed,
 }
 
+/// Where the coordinate is that the first move behind G68 does not name (parameter 11600#5, AX1).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum RotationStart {
+    /// Not said: a move to one coordinate alone is refused where that matters.
+    #[default]
+    Unsaid,
+    /// As it was before the rotation, and rotated with the one that is named (AX1 = 0).
+    AsBefore,
+    /// Where the tool is in the rotated coordinates (AX1 = 1, as a series 0i-C).
+    AsRotated,
+}
+
 /// Which way the tool goes aside at the bottom of a bored hole (parameter 5101#4, #5; setting 27 of Haas).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum BoreShift {
@@ -128,6 +140,8 @@ pub struct FanucParameters {
     pub rolls_over: bool,
     /// Whether R of G68 is the angle itself in G91, too, and not added to the one in force (parameter 5400#0, RIN).
     pub rotations_are_absolute: bool,
+    /// Where a coordinate is that the first move behind G68 does not name.
+    pub rotation_start: RotationStart,
 }
 
 impl FanucParameters {

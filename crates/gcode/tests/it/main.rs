@@ -40,6 +40,7 @@ mod fanuc_mill_words;
 mod fanuc_mirror_switch;
 mod fanuc_patterns;
 mod fanuc_roll_over;
+mod fanuc_rotation_start;
 mod fanuc_threads;
 mod five_axes;
 mod flow;

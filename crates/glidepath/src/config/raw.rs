@@ -76,6 +76,7 @@ pub(super) struct RawProgram {
     pub(super) arctangent: Optional<String>,
     pub(super) bore_shift: Optional<String>,
     pub(super) outer_corners: Optional<String>,
+    pub(super) rotation_start: Optional<String>,
     pub(super) roll_over: Optional<String>,
     pub(super) rotation: Optional<String>,
     pub(super) lathe_feed: Optional<String>,

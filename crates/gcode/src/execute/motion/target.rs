@@ -24,6 +24,7 @@ impl Interpreter {
             return Ok(self.rolled_over(block, target));
         }
         if self.state.modal.distance == Distance::Absolute {
+            self.add_coordinate_before_turn(block, &mut values)?;
             return Ok(self.rolled_over(block, self.absolute_target(&values)));
         }
         self.add_length_on_way(block, &mut values);

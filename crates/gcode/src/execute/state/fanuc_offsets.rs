@@ -39,6 +39,18 @@ pub(crate) struct FanucOffsets {
     /// What G51, G51.1 and G68 have begun.
     #[serde(skip)]
     pub(crate) frames: FanucFrames,
+    /// Where the tool was when G68 began.
+    #[serde(skip)]
+    pub(crate) before_turn: Option<BeforeTurn>,
+}
+
+/// Where the tool was when the program's coordinates were turned, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct BeforeTurn {
+    pub(crate) plane: Plane,
+    pub(crate) machine: AxisVector,
+    /// In the coordinates before.
+    pub(crate) program: AxisVector,
 }
 
 impl FanucOffsets {

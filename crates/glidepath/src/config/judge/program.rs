@@ -6,8 +6,8 @@ use crate::config::program::ProgramConfig;
 use crate::config::raw::{Optional, RawProgram};
 use glidepath_gcode::{
     Arctangent, BoreShift, Connections, Dialect, FanucControl, FanucParameters, FeedAtStart,
-    Firmware, LatheX, OffsetMemory, OuterCorners, PointInput, SiemensParameters, ToolChangeBy,
-    Units, WorkOffsets,
+    Firmware, LatheX, OffsetMemory, OuterCorners, PointInput, RotationStart, SiemensParameters,
+    ToolChangeBy, Units, WorkOffsets,
 };
 use glidepath_geometry::Axis;
 use glidepath_kinematics::Mechanism;
@@ -171,6 +171,15 @@ impl Judge {
                 "program.rotation",
                 raw.rotation.take(),
                 &[("by-distance-mode", false), ("absolute", true)],
+            ),
+            rotation_start: self.choice(
+                "program.rotation_start",
+                raw.rotation_start.take(),
+                &[
+                    ("unsaid", RotationStart::Unsaid),
+                    ("as-before", RotationStart::AsBefore),
+                    ("as-rotated", RotationStart::AsRotated),
+                ],
             ),
             outer_corners: self.choice(
                 "program.outer_corners",

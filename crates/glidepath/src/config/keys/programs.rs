@@ -115,6 +115,16 @@ pub(super) const PROGRAM: &[Key] = &[
          is added to the angle in force; \"absolute\": the angle",
     ),
     key(
+        "program.rotation_start",
+        Takes::Choice {
+            of: &["unsaid", "as-before", "as-rotated"],
+        },
+        LeftOut::Value("\"unsaid\""),
+        "where the coordinate of the plane is that the first move behind G68 of a FANUC does not name (parameter 11600#5, \
+         AX1): \"as-before\": what it was before the rotation, and it is rotated (0); \"as-rotated\": where the tool is in \
+         the rotated coordinates (1, and series 0i-C); \"unsaid\": such a move is refused where that differs",
+    ),
+    key(
         "program.unwind",
         Takes::Choice {
             of: &["never", "rapids"],

@@ -9,6 +9,7 @@ use super::sides::TURNING_R;
 use super::solver::Problem;
 use super::travel_rows::NOWHERE;
 use super::tube::Layout;
+use crate::in_tube::path::WORTH_R;
 
 /// How slow an axis is, in radii a knot, where it might turn round. An axis that is faster than that in one
 /// round and turns round in the next gets its row one round late.
@@ -37,9 +38,10 @@ pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
         if !sides.is_rest && segment.has_to_come_back(place.progress, (axis, at), sense) {
             continue;
         }
-        // Beyond the end of its run already: it came so from the inner side of the corner before, and has to come back
+        // Beyond the end of a run that is none: it came so from the inner side of the corner before, and has to come back
         // to be on that of the next one.
-        if !sides.is_rest && sense * (at - sides.to) > 0.0 {
+        let is_worth = (sides.to - sides.from).abs() >= WORTH_R * radius;
+        if !sides.is_rest && !is_worth && sense * (at - sides.to) > 0.0 {
             continue;
         }
         let mut normal = [0.0; D];

@@ -5,7 +5,7 @@
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::execute::interpreter::Interpreter;
-use crate::execute::state::fanuc_offsets::{FanucFrames, Scale, Turn};
+use crate::execute::state::fanuc_offsets::{BeforeTurn, FanucFrames, Scale, Turn};
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::frame_codes::FrameCode;
@@ -33,7 +33,7 @@ impl Interpreter {
 
     fn one_fanuc_frame(&mut self, block: &Block, coded: Coded<FrameCode>) -> Outcome<()> {
         let before = self.state.offsets.fanuc.frames;
-        let frames = self.state.offsets.fanuc.frames;
+        let mut frames = before;
         let ends = !matches!(
             coded.code,
             FrameCode::Scale(true)
@@ -41,7 +41,6 @@ impl Interpreter {
                 | FrameCode::Switch(true)
                 | FrameCode::Turn(true)
         );
-        let mut frames = frames;
         match coded.code {
             FrameCode::Scale(true) => frames.scale = Some(self.scale_words(block, coded)?),
             FrameCode::Scale(false) => frames.scale = None,
@@ -69,6 +68,12 @@ impl Interpreter {
             return Ok(());
         }
         self.check_frame_may_change(coded)?;
+        let begins_turn = frames.turn.filter(|_| frames.turn != before.turn);
+        self.state.offsets.fanuc.before_turn = begins_turn.map(|turn| BeforeTurn {
+            plane: turn.plane,
+            machine: self.state.position,
+            program: self.state.offsets.to_program(self.state.position),
+        });
         self.state.offsets.fanuc.frames = frames;
         self.state.offsets.frame = self.state.offsets.tilted.with(&frames.frame());
         Ok(())
@@ -194,6 +199,19 @@ impl Interpreter {
                 BlockDiagnostic::new(DiagnosticCode::NotSupported, coded.span, message)
                     .because("X, Y and Z are turned")
                     .help("write G17, G18 or G19"),
+            );
+        }
+        let normal = plane.normal().index();
+        if self.axis_values(block)?[normal].is_some() {
+            let letter = [b'X', b'Y', b'Z'][normal];
+            let message = format!(
+                "{} in a G68 that turns in another plane",
+                char::from(letter)
+            );
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::UnusedWord, block.span(letter), message)
+                    .because("the centre of the rotation has the two axes of the plane, and nothing moves in this block")
+                    .help("leave it out, or write the move in a block of its own"),
             );
         }
         let degrees = block

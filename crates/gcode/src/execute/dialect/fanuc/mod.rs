@@ -30,6 +30,7 @@ mod plane_of_blocks;
 mod polar;
 mod printing;
 mod profile_lines;
+mod rotation_start;
 mod statement;
 mod tilted_plane;
 mod tip;
