@@ -85,6 +85,9 @@ impl<'a> Bench<'a> {
             ("homing = \"none\"", "homing = \"drive\""),
             ("\nfollowing_error = 50.0 ", "\nfollowing_error = 5.0 "),
             ("min_following_error = 50.0 ", "min_following_error = 5.0 "),
+            // So that a loss is one.
+            ("stale_s = 2.0 ", "stale_s = 0.6 "),
+            ("off_s = 3.0 ", "off_s = 1.0 "),
         ];
         let operated = Operated::new(instance, &changes, "");
         let interpolator = operated.process(&["interpolator", "--best-effort"]);

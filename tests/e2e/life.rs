@@ -77,6 +77,9 @@ impl<'a> Life<'a> {
             ("# directory = ", "directory = "),
             ("[adaptive_feed]\n", "[adaptive_feed]\ninput = 2\n"),
             SHORT_WAY_UP,
+            // Drives that are lost are not back before it is known.
+            ("stale_s = 2.0 ", "stale_s = 0.6 "),
+            ("off_s = 3.0 ", "off_s = 1.0 "),
         ];
         let homes = (0..3).map(|joint| format!("[home.J{joint}]\n{HOME}"));
         let tables = format!("{TABLES}{}", homes.collect::<String>());

@@ -177,6 +177,19 @@ impl Browser {
         self.finger_up(&place);
     }
 
+    /// Drops a file on the middle of an element, as a mouse does that drags it from a folder.
+    pub fn drop_file(&mut self, selector: &str, path: &str) {
+        let place = self.evaluate(&format!(
+            "(() => {{ const r = document.querySelector('{selector}').getBoundingClientRect(); \
+             return [r.x + r.width / 2, r.y + r.height / 2]; }})()"
+        ));
+        for kind in ["dragEnter", "dragOver", "drop"] {
+            let data = json!({ "items": [], "files": [path], "dragOperationsMask": 1 });
+            let event = json!({ "type": kind, "x": place[0], "y": place[1], "data": data });
+            let _done = self.call("Input.dispatchDragEvent", &event);
+        }
+    }
+
     /// Puts a finger down in the middle of an element, once that is in sight and stays where it is. Returns where that is: the
     /// element may be gone when the finger comes up. Where the page moved it away under the finger, that is put down anew, as
     /// a person would do.

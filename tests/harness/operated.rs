@@ -26,9 +26,9 @@ impl<'a> Operated<'a> {
         let mut text = printed.expect(0).stdout;
         let drives = [
             ("source = \"none\"", "source = \"drives\""),
-            // A host of tests may stand still for some tenths of a second, and its drives with it.
-            ("# stale_s = 0.012 ", "stale_s = 0.6 "),
-            ("off_s = 0.1 ", "off_s = 1.0 "),
+            // A host of tests may stand still for a second, and its drives with it.
+            ("# stale_s = 0.012 ", "stale_s = 2.0 "),
+            ("off_s = 0.1 ", "off_s = 3.0 "),
             ("\nfollowing_error = 1.0 ", "\nfollowing_error = 50.0 "),
             ("min_following_error = 0.1 ", "min_following_error = 50.0 "),
         ];
@@ -48,7 +48,7 @@ impl<'a> Operated<'a> {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../config");
         let text = std::fs::read_to_string(format!("{folder}/{name}.toml")).unwrap();
         let drives = "[feedback]\nsource = \"drives\"\nfollowing_error = 50.0\nmin_following_error = 50.0\n\
-                      stale_s = 0.6\noff_s = 1.0\n";
+                      stale_s = 2.0\noff_s = 3.0\n";
         let text = format!("{text}\n{drives}{tables}");
         Self {
             instance,

@@ -11,7 +11,8 @@
 //! * [`Session`] is one connection. It takes bytes, and what is known of the machine, and says what is to be
 //!   done. It does no I/O, reads no clock (times are given to it), and knows neither processes nor programs.
 //! * [`MachineView`] is what the interpolator tells, [`Told`] what the planner's service tells of lines.
-//! * [`Act`] is what the machine is to do at once; [`Request`] are lines that are to be executed.
+//! * [`Act`] is what the machine is to do at once; whether it was is told back ([`Session::accepted`],
+//!   [`Session::refused`]). [`Request`] are lines that are to be executed.
 //!
 //! What always holds:
 //!

@@ -34,15 +34,20 @@ function inWords(seconds) {
   if (s < 60) return `${s} s`;
   return s < 3600 ? `${Math.floor(s / 60)} min ${s % 60} s` : `${Math.floor(s / 3600)} h ${Math.floor(s / 60) % 60} min`;
 }
+/* How long a part of the plan takes by the overrides in force, in samples, as the server counts the time left: feeds and rapids
+   obey their own, a rest none. */
+function lasting(from, to) {
+  const s = S.status, [feeds, rapids, rests] = PLAN.obeying(from, to), part = (samples, ratio) => samples > 0 ? samples / ratio : 0;
+  return (part(feeds, Math.abs(s.feed_override)) + part(rapids, s.rapid_override) + rests) / Math.abs(s.adaptive_feed);
+}
 /* Seconds to a place of the plan, its end unless one is given, by the overrides in force; `null` where nobody knows. The server
-   tells the whole as if all of it obeyed the feed override: rapids obey their own. */
+   tells how many there are to the end. */
 function secondsTo(place) {
-  const s = S.status, ahead = PLAN && S.shows && s.place !== null ? PLAN.samples - 1 - S.p : 0;
+  const s = S.status, end = PLAN && S.shows && s.place !== null ? PLAN.samples - 1 : 0;
   if (s.left_s === null || s.left_s === undefined || s.end_of_epoch !== 'open') return null;
-  if (ahead <= 0) return place === undefined ? s.left_s : null;
-  const to = place === undefined ? PLAN.samples - 1 : Math.max(S.p, place), rapids = PLAN.rapids(S.p, to);
-  if (rapids > 0 && !s.rapid_override) return null;
-  return s.left_s / ahead * (to - S.p - rapids + (rapids > 0 ? rapids * s.feed_override / s.rapid_override : 0));
+  if (place === undefined || place >= end && end > 0) return s.left_s;
+  const seconds = S.p < end ? s.left_s * lasting(S.p, Math.max(S.p, place)) / lasting(S.p, end) : NaN;
+  return Number.isFinite(seconds) ? seconds : null;
 }
 /* What is needed next, and when. */
 function needsWords() {
@@ -110,6 +115,13 @@ function sectionList(info) {
   if (!all.length || !info.seconds) return '';
   const row = (section, k) => `<tr><td class="n">${span(section.place * DT())}</td><td class="l name" title="${safe(sectionWords(section))}">${safe(sectionName(section))}</td><td class="l name" title="${safe(sectionTool(section))}">${section.name ? safe(sectionTool(section)) : ''}</td><td class="n">${section.line}</td><td class="n">${span(((k + 1 < all.length ? all[k + 1].place : end) - section.place) * DT())}</td></tr>`;
   return `<table class="sections"><tr><th>at</th><th class="l">section</th><th class="l">tool</th><th>line</th><th>takes</th></tr>${listed.map(row).join('')}</table>${more > 0 ? `<p class="lab-text">And ${grouped(more)} more.</p>` : ''}`;
+}
+/* The sections as keys: where each begins is the line to begin at, and of one that comes again, which time. */
+function sectionKeys(info) {
+  const times = new Map(), again = line => { times.set(line, (times.get(line) || 0) + 1); return times.get(line); };
+  const keys = (info ? courseOf(info).sections : []).slice(0, MOST_LISTED).map(section => [section, again(section.line)]);
+  const keyOf = ([section, pass]) => `<button class="choice" data-do="take-line" data-line="${section.line}" data-pass="${pass}" title="${safe(sectionWords(section))}"><b>${safe(sectionName(section))}</b><span class="lab">line ${section.line}${pass > 1 ? `, pass ${pass}` : ''}</span></button>`;
+  return keys.length ? `<div class="section-keys" role="group" aria-label="sections">${keys.map(keyOf).join('')}</div>` : '';
 }
 /* When it needs a person, while it is looked at. */
 function momentList(info) {

@@ -42,11 +42,15 @@ class Plan {
   }
   /* The bin of a place, in samples. */
   bin(p) { return Math.max(0, Math.min(this.bins - 1, Math.floor(p / this.per))); }
-  /* How many samples of rapids there are from one place to a later one. */
-  rapids(from, to) {
-    if (!this.rapid) { this.rapid = new Float64Array(this.bins + 1); for (let i = 0; i < this.bins; i++) this.rapid[i + 1] = this.rapid[i] + (this.code[i] & 128 ? this.per : 0); }
-    const before = p => { const i = this.bin(p); return this.rapid[i] + (this.code[i] & 128 ? Math.min(this.per, Math.max(0, p - i * this.per)) : 0); };
-    return before(to) - before(from);
+  /* How many samples from one place to a later one obey the feed override, that of rapids, and none, where the machine rests. */
+  obeying(from, to) {
+    const kind = i => this.code[i] & 128 ? 1 : this.code[i] & 7 ? 0 : 2;
+    if (!this.kinds) {
+      this.kinds = [0, 1, 2].map(() => new Float64Array(this.bins + 1));
+      for (let i = 0; i < this.bins; i++) this.kinds.forEach((sum, k) => { sum[i + 1] = sum[i] + (kind(i) === k ? this.per : 0); });
+    }
+    const before = (sum, k, p) => { const i = this.bin(p); return sum[i] + (kind(i) === k ? Math.min(this.per, Math.max(0, p - i * this.per)) : 0); };
+    return this.kinds.map((sum, k) => before(sum, k, to) - before(sum, k, from));
   }
   position(axis, p) { return this.axes[axis] ? this.axes[axis].position[this.bin(p)] : 0; }
   /* The first sample of a line, or the next one that has any. */

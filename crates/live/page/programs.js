@@ -144,9 +144,10 @@ async function runLooked(name, more, info) {
 }
 /* ---- from a line: what is different there, and what happens, before anything does */
 DEEDS['from-line'] = () => { S.agree = S.agree ? null : { asks: true }; paintChosen(); const input = $('#fromline'); if (input) input.focus(); };
+DEEDS['take-line'] = b => { $('#fromline').value = b.dataset.line; $('#pass').value = b.dataset.pass; };
 function agreement() {
   const a = S.agree, why = whyNoRun();
-  if (a.asks) return `<div class="h"><b>From which line?</b></div><div class="row"><label class="field"><span class="lab">Line</span><input id="fromline" inputmode="numeric"></label><label class="field"><span class="lab">Pass</span><input id="pass" inputmode="numeric" value="1"></label>${key('compare', 'Compare', { why })}${key('from-line', 'Leave it')}</div><p class="lab-text">The program is read up to there. What is different from now is shown before anything moves.</p>`;
+  if (a.asks) return `<div class="h"><b>From which line?</b></div><div class="row"><label class="field"><span class="lab">Line</span><input id="fromline" inputmode="numeric"></label><label class="field"><span class="lab">Pass</span><input id="pass" inputmode="numeric" value="1"></label>${key('compare', 'Compare', { why })}${key('from-line', 'Leave it')}</div><p class="lab-text">The program is read up to there. What is different from now is shown before anything moves.</p>${sectionKeys(LOOK.info)}`;
   const { rows, notes } = differences(a.text);
   const row = ([what, now, then]) => `<tr class="${now === then ? '' : 'differs'}"><th scope="row">${safe(what)}</th><td class="n">${safe(now)}</td><td>${now === then ? '' : '≠'}</td><td class="n">${safe(then)}</td></tr>`;
   const around = (a.around || []).map(([n, text]) => `<div class="${n === a.from_line ? 'cur' : ''}"><span class="k">${n}</span><span>${safe(text) || ' '}</span></div>`).join('');

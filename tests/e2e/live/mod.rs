@@ -15,6 +15,7 @@ mod life;
 mod looked_at;
 mod machines;
 mod operated_page;
+mod other_client;
 mod overrides;
 mod pictures;
 mod proxy;

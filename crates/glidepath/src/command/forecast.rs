@@ -2,6 +2,7 @@
 //! machine, since planned time is run time.
 
 mod spectator;
+mod stretches;
 
 use super::begins_with::{begin_on_machine, program_start, ratio_begun_with};
 use super::changed::{Change, Changed};
@@ -26,6 +27,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
+use stretches::Stretches;
 
 /// Larger programs are shown without the text of their blocks.
 const MOST_TEXT: u64 = 64 << 20;
@@ -61,6 +63,8 @@ struct Plan {
     fingerprint: Option<u64>,
     /// Where blocks begin, if a machine is followed in it.
     begins: Option<Vec<Begin>>,
+    /// What its time obeys, if a machine is followed in it.
+    stretches: Stretches,
     frames: u64,
     path_s: f64,
     /// The whole program was planned.
@@ -223,6 +227,9 @@ impl Forecast {
             text: text.unwrap_or_default().to_owned(),
             planned_t: whole.map(time),
             elapsed_t: now.map(|at| time(at.sequence)),
+            ahead: whole
+                .zip(now)
+                .map(|(whole, at)| plan.stretches.ahead(at.sequence, whole, self.period_t)),
             is_on_its_way: now.is_some_and(|at| at.is_on_its_way),
             has_failed: plan.has_failed,
         })
@@ -316,7 +323,8 @@ impl Plan {
                 path_s: frame.path_s,
             });
         }
-        self.has_failed = begins.len() > MOST_BLOCKS;
+        self.stretches.take(frame);
+        self.has_failed = begins.len().max(self.stretches.count()) > MOST_BLOCKS;
     }
 
     /// The place in the plan of what is executed: by the block and the part of its path that is done, so

@@ -57,6 +57,7 @@ mod setup;
 mod subroutines;
 mod telemetry;
 mod text_lines;
+mod thread_watch;
 mod told;
 mod tool_names;
 mod watch;

@@ -5,6 +5,7 @@ use super::jog::lift;
 use super::operator::{Effect, PATIENCE, command_and_wait, reach, read_status, send};
 use super::other_users::OtherUsers;
 use super::session;
+use super::thread_watch::ThreadWatch;
 use crate::cli::{AbortArgs, OperatorArgs};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
@@ -13,10 +14,9 @@ use crate::interrupt::Interrupt;
 use crate::output;
 use crate::waiting_note::WaitingNote;
 use glidepath_link::{
-    Command, EndOfEpoch, InterpolatorProcess, Ipc, JobStage, LinkConfig, LinkError, MachineState,
-    Operator, Power, RecordError, Setpoint, Status, Subscriber, Transport as _,
+    Command, EndOfEpoch, InterpolatorProcess, JobStage, LinkConfig, LinkError, MachineState,
+    Operator, Power, RecordError, Status,
 };
-use glidepath_program::FrameFlags;
 use serde_json::json;
 use std::time::{Duration, Instant};
 
@@ -99,12 +99,12 @@ fn abort_and_lift(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Fail
             .status(PATIENCE)?
             .is_some_and(|status| status.end_of_epoch() == Ok(EndOfEpoch::Open));
     // Heard from before the abort on, which waits for nothing of it and is sent whatever becomes of it.
-    let setpoints = was_open.then(|| Ipc::connect(&link)?.setpoint_source());
-    let exit = abort_and_wait(&args.operator, config)?;
-    let Some(setpoints) = setpoints else {
+    let mut watch = was_open.then(|| ThreadWatch::start(&link, config));
+    let exit = abort_and_wait(&args.operator, config, &mut watch)?;
+    let Some(mut watch) = watch else {
         return Ok(exit);
     };
-    if may_be_in_thread(config, setpoints.ok()) {
+    if watch.may_be_in_thread() {
         output::note(
             "abort: the tool may be in a thread or a tapped hole, so it is not lifted; turn it out, or jog it away \
              where nothing holds it",
@@ -116,37 +116,21 @@ fn abort_and_lift(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Fail
     Ok(exit)
 }
 
-/// Whether the tool may be in a thread, which a lift would tear out: in a pass that follows the spindle, as setpoints
-/// have told it since, or anywhere in a program where the spindle is an axis, whose taps are moves like others. Where
-/// no setpoint was heard, nobody knows.
-fn may_be_in_thread(
-    config: &MachineConfig,
-    setpoints: Option<Box<dyn Subscriber<Setpoint>>>,
-) -> bool {
-    if config.spindle.is_some_and(|spindle| spindle.axis.is_some()) {
-        return true;
-    }
-    let Some(mut setpoints) = setpoints else {
-        return true;
-    };
-    let mut is_heard = false;
-    while let Ok(Some(setpoint)) = setpoints.take() {
-        is_heard = true;
-        if FrameFlags(setpoint.flags).contains(FrameFlags::SYNC) {
-            return true;
-        }
-    }
-    !is_heard
-}
-
 /// Ends the motion and the job, and waits until it rests and its planner has let go of it; not longer than an answer
-/// may take.
+/// may take. What the setpoints tell meanwhile is heard.
 ///
 /// # Errors
 /// The errors of a command.
-fn abort_and_wait(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+fn abort_and_wait(
+    args: &OperatorArgs,
+    config: &MachineConfig,
+    watch: &mut Option<ThreadWatch>,
+) -> Result<Exit, Failure> {
     command_and_wait(args, config, "abort", Command::Abort, |operator, link| {
-        let is_so = |status: &Status| Ok(!has_job(status)? && !status.state()?.is_moving());
+        let is_so = |status: &Status| {
+            watch.iter_mut().for_each(ThreadWatch::look);
+            Ok(!has_job(status)? && !status.state()?.is_moving())
+        };
         wait(operator, link, is_so, still)
     })
 }
@@ -182,7 +166,7 @@ fn has_job(status: &Status) -> Result<bool, RecordError> {
 fn wait(
     operator: &Operator,
     link: &LinkConfig,
-    is_so: impl Fn(&Status) -> Result<bool, RecordError>,
+    mut is_so: impl FnMut(&Status) -> Result<bool, RecordError>,
     still: impl Fn(&Status) -> Result<Effect, RecordError>,
 ) -> Result<Effect, Failure> {
     let started = Instant::now();

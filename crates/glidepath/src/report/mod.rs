@@ -38,6 +38,6 @@ pub use status::{
     quantiles_object, quantiles_text, realtime_object, realtime_text, status_object, status_text,
     timing_text,
 };
-pub use view::{ProgramPlace, View, view_object, view_text};
+pub use view::{Ahead, ProgramPlace, View, view_object, view_text};
 pub use warnings::{WARNING, warnings};
 pub use work_offset::WorkOffset;

@@ -54,6 +54,8 @@ pub struct Session {
     jogging: Jogging,
     waiting: Waiting,
     reset: Option<Reset>,
+    /// Aborts that the machine has not answered.
+    aborts: u32,
     latch: Latch,
     alarm: Option<Alarm>,
     /// A machine that does not know where it is may be jogged.
@@ -92,6 +94,7 @@ impl Session {
             jogging: Jogging::default(),
             waiting: Waiting::Nothing,
             reset: None,
+            aborts: 0,
             latch: Latch::Free,
             alarm: None,
             is_unlocked: false,
@@ -258,11 +261,26 @@ impl Session {
         core::mem::take(&mut self.acts)
     }
 
+    /// Has the motion ended. A reset is not over before the machine has answered: what is executed behind it would be
+    /// ended, too.
+    fn abort(&mut self) {
+        self.aborts += 1;
+        self.acts.push(Act::Abort);
+    }
+
+    /// An act was accepted.
+    pub fn accepted(&mut self, act: &Act) {
+        if *act == Act::Abort {
+            self.aborts = self.aborts.saturating_sub(1);
+        }
+    }
+
     /// An act was refused.
     pub fn refused(&mut self, act: &Act, why: &str) {
         match act {
+            Act::Abort => self.aborts = self.aborts.saturating_sub(1),
             // At rest there is nothing to hold or to end: what keeps lines from beginning is kept here.
-            Act::Hold | Act::Abort | Act::LetGo => {}
+            Act::Hold | Act::LetGo => {}
             // It was taken back, and what it waits for tells so.
             Act::Home(_) if matches!(self.waiting, Waiting::Home { is_ended: true, .. }) => {}
             Act::Home(_) if matches!(self.waiting, Waiting::Home { .. }) => {

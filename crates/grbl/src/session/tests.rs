@@ -24,6 +24,8 @@ struct Desk {
     /// Lines that were executed.
     executed: Vec<String>,
     acts: Vec<Act>,
+    /// The machine does not answer what is asked of it.
+    is_silent: bool,
     /// The service reads nothing.
     is_full: bool,
     /// How often it looks with nothing to read before a job ends.
@@ -53,6 +55,7 @@ impl Desk {
             resets: 0,
             executed: Vec::new(),
             acts: Vec::new(),
+            is_silent: false,
             is_full: false,
             idle: 0,
             over: None,
@@ -99,6 +102,9 @@ impl Desk {
                 Act::Hold => self.machine.doing = Doing::Held,
                 Act::Resume => self.machine.doing = Doing::Running,
                 _ => {}
+            }
+            if !self.is_silent {
+                self.session.accepted(&act);
             }
             self.acts.push(act);
         }

@@ -33,7 +33,7 @@ impl Session {
             self.end_home();
         } else if !is_off {
             // At rest, too: it stops spindle and coolant.
-            self.acts.push(Act::Abort);
+            self.abort();
         }
         (self.waiting, self.latch) = (Waiting::Nothing, Latch::Free);
         self.is_checking = false;
@@ -47,14 +47,16 @@ impl Session {
         self.look_at_reset(now);
     }
 
-    /// Looks whether the machine rests, and whether modes and offsets are reset then.
+    /// Looks whether the machine has heard of it and rests, and whether modes and offsets are reset then.
     pub(super) fn look_at_reset(&mut self, now: Duration) {
         let Some(reset) = &mut self.reset else {
             return;
         };
         let is_late = now.saturating_sub(reset.since) >= REST_PATIENCE;
-        let rests =
-            self.machine.doing.is_free() && !self.stream.is_open() && !self.jogging.is_active();
+        let rests = self.aborts == 0
+            && self.machine.doing.is_free()
+            && !self.stream.is_open()
+            && !self.jogging.is_active();
         if !rests && !is_late {
             return;
         }
@@ -152,7 +154,7 @@ impl Session {
     /// Ends a search for home, also one that was asked for just now.
     pub(super) fn end_home(&mut self) {
         self.acts.retain(|act| !matches!(act, Act::Home(_)));
-        self.acts.push(Act::Abort);
+        self.abort();
         if let Waiting::Home { is_ended, .. } = &mut self.waiting {
             *is_ended = true;
         }

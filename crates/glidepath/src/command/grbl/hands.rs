@@ -19,26 +19,27 @@ const STOPPED: &str = "a stop was asked for behind it";
 /// How long the interpolator may take for an answer.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-type Refusal = (Act, String);
+/// What was to be done, and whether it was; if not, why.
+type Answer = (Act, Result<(), String>);
 /// What is to be done, by which command, and when it was asked for, ns of the host's steady clock.
 type Order = (Act, Command, u64);
 
 /// The ways to the machine.
 pub(super) struct Hands {
     commands: Sender<Order>,
-    refusals: Receiver<Refusal>,
+    answers: Receiver<Answer>,
     jogger: Jogger,
     /// The joints of each axis, and of all, one bit each.
     joints: [u32; AXES],
     all: u32,
-    untold: Vec<Refusal>,
+    untold: Vec<Answer>,
 }
 
 impl Hands {
     /// Starts the threads, which end with this.
     pub(super) fn start(config: &MachineConfig, link: &LinkConfig) -> io::Result<Self> {
         let (commands, receiver) = channel();
-        let (sender, refusals) = channel();
+        let (sender, answers) = channel();
         let own = link.clone();
         let thread = std::thread::Builder::new().name("grbl-commands".to_owned());
         thread.spawn(move || give(&own, &receiver, &sender))?;
@@ -50,7 +51,7 @@ impl Hands {
         }
         Ok(Self {
             commands,
-            refusals,
+            answers,
             jogger: Jogger::start(config, link)?,
             joints,
             all: (1 << config.drives()) - 1,
@@ -106,8 +107,8 @@ impl Hands {
         };
         if let Err(unsent) = self.commands.send((act, command, asked_ns)) {
             let (act, ..) = unsent.0;
-            self.untold
-                .push((act, "nobody gives commands any more".to_owned()));
+            let why = "nobody gives commands any more".to_owned();
+            self.untold.push((act, Err(why)));
         }
     }
 
@@ -116,29 +117,31 @@ impl Hands {
         let now = Instant::now();
         let at = now.checked_sub(age).unwrap_or(now);
         if !self.jogger.hand_asked(hand, at) {
-            self.untold.push((act, "nobody jogs any more".to_owned()));
+            let why = "nobody jogs any more".to_owned();
+            self.untold.push((act, Err(why)));
         }
     }
 
-    /// What was refused since the last call, and why.
-    pub(super) fn refusals(&mut self) -> Vec<Refusal> {
+    /// What was answered since the last call. Of jogs only refusals are told.
+    pub(super) fn answers(&mut self) -> Vec<Answer> {
         let untold = core::mem::take(&mut self.untold);
-        untold.into_iter().chain(self.refusals.try_iter()).collect()
+        untold.into_iter().chain(self.answers.try_iter()).collect()
     }
 }
 
 /// Gives commands until nobody has any more.
-fn give(link: &LinkConfig, commands: &Receiver<Order>, refusals: &Sender<Refusal>) {
+fn give(link: &LinkConfig, commands: &Receiver<Order>, answers: &Sender<Answer>) {
     while let Ok(first) = commands.recv() {
         let waiting = core::iter::once(first).chain(commands.try_iter()).collect();
         let (given, dropped) = in_order(waiting);
-        let dropped = dropped.into_iter().map(|act| (act, STOPPED.to_owned()));
-        let refused = given.into_iter().filter_map(|(act, command, asked_ns)| {
-            let why = give_one(link, command, asked_ns).err()?;
-            Some((act, why))
-        });
-        for refusal in dropped.chain(refused) {
-            if refusals.send(refusal).is_err() {
+        let dropped = dropped
+            .into_iter()
+            .map(|act| (act, Err(STOPPED.to_owned())));
+        let given = given
+            .into_iter()
+            .map(|(act, command, asked_ns)| (act, give_one(link, command, asked_ns)));
+        for answer in dropped.chain(given) {
+            if answers.send(answer).is_err() {
                 return;
             }
         }

@@ -225,8 +225,11 @@ impl Endpoint {
             }
             self.hands.act(act, self.view.status(), asked_ns);
         }
-        for (act, why) in self.hands.refusals() {
-            self.session.refused(&act, &why);
+        for (act, answer) in self.hands.answers() {
+            match answer {
+                Ok(()) => self.session.accepted(&act),
+                Err(why) => self.session.refused(&act, &why),
+            }
         }
     }
 }

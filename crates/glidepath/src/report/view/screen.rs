@@ -231,6 +231,7 @@ mod tests {
 
     use super::*;
     use crate::report::machine::AwaitedEvent;
+    use crate::report::view::ahead::Ahead;
     use crate::report::view::object::view_object;
     use crate::report::view::seen::ProgramPlace;
     use crate::report::work_offset::WorkOffset;
@@ -240,6 +241,21 @@ mod tests {
     use glidepath_link::Auxiliary;
     use glidepath_program::Event;
     use serde_json::Value;
+
+    /// The place in a program of 100 s, all of it at a feed.
+    fn a_quarter_done(text: &str) -> ProgramPlace {
+        ProgramPlace {
+            program: "part.ngc".to_owned(),
+            text: text.to_owned(),
+            planned_t: Some(100.0),
+            elapsed_t: Some(25.0),
+            ahead: Some(Ahead {
+                feed_t: 75.0,
+                ..Ahead::default()
+            }),
+            ..ProgramPlace::default()
+        }
+    }
 
     #[test]
     fn a_screen_has_eighty_columns_and_says_what_an_operator_asks() {
@@ -270,13 +286,9 @@ mod tests {
             auxiliary: Some(&auxiliary),
             axes: &[Axis::X, Axis::Y, Axis::Z],
             not_homed: &[Axis::Y],
-            place: Some(ProgramPlace {
-                program: "part.ngc".to_owned(),
-                text: "G1 X10 F1200 ".to_owned() + &"(a long comment)".repeat(9),
-                planned_t: Some(100.0),
-                elapsed_t: Some(25.0),
-                ..ProgramPlace::default()
-            }),
+            place: Some(a_quarter_done(
+                &("G1 X10 F1200 ".to_owned() + &"(a long comment)".repeat(9)),
+            )),
             offsets: Some(WorkOffset {
                 name: "G54".to_owned(),
                 origin,
@@ -340,13 +352,7 @@ mod tests {
             auxiliary: None,
             axes: &[Axis::X, Axis::Y, Axis::Z],
             not_homed: &[],
-            place: Some(ProgramPlace {
-                program: "part.ngc".to_owned(),
-                text: String::new(),
-                planned_t: Some(100.0),
-                elapsed_t: Some(25.0),
-                ..ProgramPlace::default()
-            }),
+            place: Some(a_quarter_done("")),
             offsets: None,
             asked: AwaitedEvent::default(),
             events: Vec::new(),

@@ -1,5 +1,6 @@
 //! The content of the view: what is known of a machine that works.
 
+use super::ahead::Ahead;
 use crate::report::machine::AwaitedEvent;
 use crate::report::work_offset::WorkOffset;
 use core::time::Duration;
@@ -17,6 +18,8 @@ pub struct ProgramPlace {
     pub planned_t: Option<f64>,
     /// How much of that is done, s.
     pub elapsed_t: Option<f64>,
+    /// The rest of it; `None` while how long the whole takes is not known yet.
+    pub ahead: Option<Ahead>,
     /// It is on its way to where that much counts as done: to the line that it is to begin with. How long the way takes
     /// is not known.
     pub is_on_its_way: bool,
@@ -71,7 +74,7 @@ impl View<'_> {
         (all > 0.0).then(|| (done / all).clamp(0.0, 1.0))
     }
 
-    /// How long it takes yet under the present override, s.
+    /// How long it takes yet under the present overrides, s.
     pub(super) fn left_t(&self) -> Option<f64> {
         let place = self.place.as_ref()?;
         if place.is_on_its_way {
@@ -82,9 +85,6 @@ impl View<'_> {
 
     /// The same from the place on that [`ProgramPlace::elapsed_t`] tells.
     pub(super) fn left_behind_t(&self) -> Option<f64> {
-        let place = self.place.as_ref()?;
-        let left = place.planned_t? - place.elapsed_t?;
-        let ratio = self.status.feed_override * self.status.adaptive_feed;
-        (ratio > 0.0).then(|| left.max(0.0) / ratio)
+        self.place.as_ref()?.ahead?.lasting_t(self.status)
     }
 }

@@ -66,9 +66,35 @@ fn a_reset_stops_spindle_and_coolant_and_begins_with_the_modes_of_a_start() {
 fn a_reset_is_over_also_where_nobody_executes_lines() {
     let mut desk = Desk::new();
     desk.session.hear(b"\x18", desk.now);
+    desk.session.accepted(&Act::Abort);
+    desk.session.see(&desk.machine, desk.now);
     desk.session.request();
     desk.session.service_lost("nobody is there", desk.now);
     desk.session.see(&desk.machine, desk.now);
     let said = desk.said();
     assert!(said.iter().any(|line| line.starts_with("Grbl")), "{said:?}");
+}
+
+/// The abort is on its way as long as the machine has not answered: it would end what is executed behind the reset.
+#[test]
+fn a_reset_is_over_when_the_machine_has_heard_of_it() {
+    for reset in [&b"\x18G55\n"[..], b"\x19G55\n"] {
+        let mut desk = Desk::new();
+        desk.is_silent = true;
+        assert_eq!(desk.says(reset), [""; 0]);
+        assert_eq!(desk.acts, [Act::Abort]);
+        assert!(desk.executed.is_empty());
+        desk.is_silent = false;
+        desk.session.accepted(&Act::Abort);
+        assert_eq!(answers(&desk.says(b"")), ["ok"]);
+        assert_eq!(desk.executed, ["G55"]);
+        assert_eq!(desk.state(), "Idle");
+    }
+    // Where it has nothing to end, and where nobody is there to answer, it is over as well.
+    let mut desk = Desk::new();
+    desk.is_silent = true;
+    desk.says(b"\x18");
+    desk.session
+        .refused(&Act::Abort, "the interpolator does not answer");
+    assert!(desk.says(b"").iter().any(|line| line.starts_with("Grbl")));
 }
