@@ -101,11 +101,21 @@ fn an_abort_in_a_thread_does_not_lift_the_tool() {
     let part = "G21 G90 G97 S30 M3\nG0 X1 Z2\nG33 Z-6 K1\nG0 X9\nM2\n";
     let part = instance.file("pass.ngc", part);
     let running = bench.process(&["run-file", &part]);
-    let _in_pass = bench.wait(|status| status.position[2] < 1.9);
+    let _in_pass = bench.wait(|status| status.line == 3 && status.position[2] < 1.9);
     // Stops that were accepted, and have not come to their end: neither is a machine at rest.
-    let told = bench.process(&["hold"]).wait().expect(8);
-    assert!(told.stdout.contains("still moves"), "{}", told.stdout);
-    let told = bench.process(&["abort"]).wait().expect(8);
+    let held = bench.process(&["hold"]).wait();
+    let told = bench.process(&["abort"]).wait();
+    // Where frames ran out, the pass has ended in a fault, and both found a machine at rest.
+    if bench.wait(|_| true).state == MachineState::Faulted.code() && is_crowded() {
+        skip(
+            "a thread",
+            "the host had other things to do, and frames ran out",
+        );
+        return;
+    }
+    let held = held.expect(8);
+    assert!(held.stdout.contains("still moves"), "{}", held.stdout);
+    let told = told.expect(8);
     assert!(told.stderr.contains("not lifted"), "{}", told.stderr);
     assert!(told.stdout.contains("still moves"), "{}", told.stdout);
     let status = bench.operate(&["status", "--json"]).json();

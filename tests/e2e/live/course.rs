@@ -79,6 +79,16 @@ fn a_program_tells_its_sections_and_when_it_needs_somebody() {
     }
     fits(&mut browser, "programs");
 
+    // From line: each of them is a line that can be pressed.
+    browser.press("#runkeys [data-do=from-line]");
+    browser.wait("document.querySelectorAll('.section-keys [data-do=take-line]').length === 2");
+    fits(&mut browser, "programs");
+    browser.picture("from-line-1024x768");
+    browser.press(".section-keys [data-line=\"11\"]");
+    let taken = browser.evaluate("[$('#fromline').value, $('#pass').value]");
+    assert_eq!(taken, json!(["11", "1"]));
+    browser.press("#found [data-do=from-line]");
+
     press(&mut browser, "#chosen [data-do=run]", HALF);
     let _asks = services.wait_for(MachineState::Awaiting);
     browser.wait("S.view === 'operate' && S.state === 'awaiting' && PLAN && INFO.report");

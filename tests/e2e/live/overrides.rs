@@ -99,12 +99,6 @@ fn feed_rapid_and_single_block_do_what_they_say() {
         "feed is at 0 %",
     );
 
-    // Of two presses, the second before the first was told, both count.
-    overridden
-        .browser
-        .evaluate("[0, 1].forEach(DEEDS['feed-override-more'])");
-    let _faster = services.wait(|status| (status.feed_override - 1.1).abs() < 1e-9);
-
     // Single block rests at the end of the block, and the key is called by what it does.
     overridden.browser.press("[data-c=single]");
     let _single = services.wait(|status| status.single_block != 0);
@@ -117,6 +111,11 @@ fn feed_rapid_and_single_block_do_what_they_say() {
         "{CAUSE}.includes('the end of a block, for single block; Next block goes on') && {GO} === 'Next block press ½ s'"
     );
     overridden.browser.wait(&rests);
+    // Of two presses, the second before the first was told, both count.
+    overridden
+        .browser
+        .evaluate("[0, 1].forEach(DEEDS['feed-override-more'])");
+    let _faster = services.wait(|status| (status.feed_override - 1.1).abs() < 1e-9);
     press(overridden.browser, "[data-c=go]", HALF);
     let _next = services
         .wait(|status| status.state == MachineState::ProgramStop.code() && status.line > before);

@@ -30,7 +30,7 @@ const SMALL: &str = "[...document.querySelectorAll('#app *')].filter(e => !e.chi
 /// Texts of which a part is not shown: beyond an element that hides what is beyond it, or beyond the screen. What can be scrolled
 /// to is shown. Names and lines of programs may be shortened, and a telephone shows as many entries of the log as it can.
 pub(super) const CUT: &str = "(() => { \
-     const short = '.program b, .sections .name, #chosen .title b, .folder .h b, .around div, .blocks, #slowbox pre, #typed code, .g-log, [aria-hidden=true]'; \
+     const short = '.program b, .sections .name, .section-keys b, #chosen .title b, .folder .h b, .around div, .blocks, #slowbox pre, #typed code, .g-log, [aria-hidden=true]'; \
      const scrolls = (e, way) => /auto|scroll/.test(getComputedStyle(e)['overflow' + way]) && (way === 'X' ? e.scrollWidth > e.clientWidth : e.scrollHeight > e.clientHeight); \
      const hides = (e, way) => getComputedStyle(e)['overflow' + way] !== 'visible' && !scrolls(e, way); \
      const range = document.createRange(), walk = document.createTreeWalker($('#app'), NodeFilter.SHOW_TEXT), found = new Set(); \
