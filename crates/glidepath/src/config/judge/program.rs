@@ -172,15 +172,7 @@ impl Judge {
                 raw.rotation.take(),
                 &[("by-distance-mode", false), ("absolute", true)],
             ),
-            rotation_start: self.choice(
-                "program.rotation_start",
-                raw.rotation_start.take(),
-                &[
-                    ("unsaid", RotationStart::Unsaid),
-                    ("as-before", RotationStart::AsBefore),
-                    ("as-rotated", RotationStart::AsRotated),
-                ],
-            ),
+            rotation_start: self.rotation_start(raw),
             outer_corners: self.choice(
                 "program.outer_corners",
                 raw.outer_corners.take(),
@@ -201,6 +193,19 @@ impl Judge {
             ),
             feed_at_start: self.feed_at_start(raw),
         }
+    }
+
+    /// Where a coordinate is that the first move behind a FANUC's G68 does not name.
+    fn rotation_start(&mut self, raw: &mut RawProgram) -> RotationStart {
+        self.choice(
+            "program.rotation_start",
+            raw.rotation_start.take(),
+            &[
+                ("unsaid", RotationStart::Unsaid),
+                ("as-before", RotationStart::AsBefore),
+                ("as-rotated", RotationStart::AsRotated),
+            ],
+        )
     }
 
     /// What F of a FANUC's lathe counts before a program says it.
