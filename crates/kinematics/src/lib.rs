@@ -54,6 +54,7 @@ mod axis_share;
 mod calibration;
 mod compensation;
 mod core_xy;
+mod cross_compensation;
 mod curve_rates;
 mod direction_gain;
 mod error;
@@ -85,6 +86,7 @@ pub use compensation::{
     CompensationError, CompensationPoint, JointCompensation, MOST_POINTS, TAKE_UP,
 };
 pub use core_xy::CoreXy;
+pub use cross_compensation::{CrossCompensation, CrossTable};
 pub use curve_rates::CurveRates;
 pub use error::KinematicsError;
 pub use five_axis::{FiveAxis, Rotaries};

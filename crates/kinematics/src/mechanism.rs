@@ -2,8 +2,8 @@
 
 use crate::machine::{AxisSeries, Conditioning, JointMotion, JointSeries, JointVector, Kinematics};
 use crate::{
-    CoreXy, FiveAxis, FiveBar, Hexapod, KinematicsError, LinearDelta, RotaryDelta, Scara,
-    TranslationalHexapod, Trivial,
+    CoreXy, CrossCompensation, FiveAxis, FiveBar, Hexapod, KinematicsError, LinearDelta,
+    RotaryDelta, Scara, TranslationalHexapod, Trivial,
 };
 use glidepath_geometry::AxisVector;
 use glidepath_geometry::number::Number;
@@ -49,6 +49,38 @@ macro_rules! each {
             Mechanism::Translational($machine) => $call,
         }
     };
+}
+
+impl Mechanism {
+    /// What is added to axes by where others are, where joints are axes.
+    #[must_use]
+    pub const fn cross(&self) -> Option<&'static CrossCompensation> {
+        match self {
+            Self::Trivial(trivial) => trivial.cross,
+            _ => None,
+        }
+    }
+
+    /// Position, velocity and acceleration of the axes for those of joints that are moved each for itself. Only where
+    /// joints are axes do rates go the same way as positions.
+    ///
+    /// # Errors
+    /// No position fits the joints.
+    pub fn axes_motion(
+        &self,
+        joints: &JointMotion,
+        near: &AxisVector,
+    ) -> Result<[AxisVector; 3], KinematicsError> {
+        if let Self::Trivial(trivial) = self {
+            return Ok(trivial.axes_motion(joints));
+        }
+        let axes = |joints: &JointVector| self.forward(joints, near);
+        Ok([
+            axes(&joints.position)?,
+            axes(&joints.velocity)?,
+            axes(&joints.acceleration)?,
+        ])
+    }
 }
 
 impl Kinematics for Mechanism {

@@ -13,6 +13,7 @@
 
 mod between;
 mod encoder;
+mod gears;
 mod judge;
 mod load_side;
 mod terminals;

@@ -22,6 +22,10 @@ pub(super) struct RawConfig {
     #[serde(default)]
     pub(super) compensation: BTreeMap<Spanned<String>, Spanned<RawCompensation>>,
     #[serde(default)]
+    pub(super) squareness: RawSquareness,
+    #[serde(default)]
+    pub(super) straightness: BTreeMap<Spanned<String>, Spanned<RawStraightness>>,
+    #[serde(default)]
     pub(super) path: RawPath,
     #[serde(default)]
     pub(super) interpolator: RawInterpolator,
@@ -270,6 +274,21 @@ pub(super) struct RawCompensation {
     pub(super) positions: Optional<Vec<f64>>,
     pub(super) corrections: Optional<Vec<f64>>,
     pub(super) corrections_down: Optional<Vec<f64>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default, rename_all = "UPPERCASE")]
+pub(super) struct RawSquareness {
+    pub(super) xy: Optional<f64>,
+    pub(super) xz: Optional<f64>,
+    pub(super) yz: Optional<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawStraightness {
+    pub(super) positions: Optional<Vec<f64>>,
+    pub(super) corrections: Optional<Vec<f64>>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -65,6 +65,21 @@ fn machine_with(key: &str) -> Table {
     if key.starts_with("compensation.") {
         return shipped("mill");
     }
+    if key.starts_with("straightness.") {
+        let mut machine = shipped("mill");
+        for (name, numbers) in [
+            ("positions", [0.0, 100.0, 200.0]),
+            ("corrections", [0.0, 0.01, 0.0]),
+        ] {
+            let numbers = numbers.map(Value::Float).to_vec();
+            put(
+                &mut machine,
+                &format!("straightness.ZX.{name}"),
+                Value::Array(numbers),
+            );
+        }
+        return machine;
+    }
     if key.starts_with("home.") {
         let mut machine = shipped("mill");
         put(&mut machine, "home.J0.shared", Value::Boolean(false));

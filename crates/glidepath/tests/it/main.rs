@@ -8,6 +8,7 @@ mod command_options;
 mod config_command;
 mod config_stages;
 mod configuration;
+mod cross_compensation;
 mod fit;
 mod hostile_curves;
 mod hostile_numbers;

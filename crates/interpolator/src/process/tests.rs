@@ -14,6 +14,7 @@ mod answers;
 mod bench;
 mod client;
 mod compensation;
+mod cross_compensation;
 mod following;
 mod gantry;
 mod homing;

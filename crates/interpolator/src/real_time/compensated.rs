@@ -17,12 +17,12 @@
 use crate::real_time::track::Track;
 use crate::shared::config::Config;
 use crate::shared::tracker::{Bounds, Motion, Target, Tracker};
-use glidepath_geometry::{AXES, Axis, AxisVector};
-use glidepath_kinematics::{JOINTS, JointCompensation, JointMotion, JointVector};
+use glidepath_geometry::{AXES, Axis};
+use glidepath_kinematics::{JOINTS, JointCompensation, JointMotion, JointVector, Kinematics as _};
 
 /// How far a joint has to come back to have turned round, mm or degrees: more than rounding, less than anybody
-/// measures.
-const TURNED: f64 = 1e-3;
+/// measures. What a shorter way back leaves, and what tables are off by between their points, are a micrometre together.
+const TURNED: f64 = 0.9e-3;
 
 /// No take-up is looked for further ahead, frames: beyond what is published ahead nothing is known.
 const MOST_AHEAD: f64 = 1000.0;
@@ -91,8 +91,6 @@ struct Compensated {
     side: Option<Side>,
     /// How far its axis will be from here some frames ahead.
     ahead: f64,
-    /// It follows another joint, which tells where the axis is.
-    is_second: bool,
 }
 
 impl Compensated {
@@ -111,16 +109,20 @@ pub(crate) struct CompensatedJoints {
 impl CompensatedJoints {
     pub(crate) fn new(config: &Config) -> Self {
         let axes = config.axis_of_joint().unwrap_or_default();
+        let start = config.mechanism.inverse(&config.start_position);
+        let start = start.unwrap_or_else(|_| JointVector::zeros());
         let start = |axis: Option<Axis>| {
-            let place = axis.and_then(|axis| config.start_position.get(axis.index()));
-            place.copied().unwrap_or(0.0)
+            let first = axes.iter().position(|of| of.is_some() && *of == axis);
+            first
+                .and_then(|first| start.get(first))
+                .copied()
+                .unwrap_or(0.0)
         };
         let of_joint = |joint: usize, by: &'static JointCompensation| Compensated {
             joint,
             axis: axes.get(joint).copied().flatten(),
             by,
             ahead: 0.0,
-            is_second: config.second_joints().any(|(second, _)| second == joint),
             side: by.has_play().then(|| {
                 Side::new(
                     by.side_limits(),
@@ -202,9 +204,8 @@ impl CompensatedJoints {
         }
     }
 
-    /// The position is taken over: on which side of their play joints stand is not known. Writes where they are, and
-    /// the axes that they move.
-    pub(crate) fn take_over(&mut self, joints: &mut JointVector, axes: &mut AxisVector) {
+    /// The position is taken over: on which side of their play joints stand is not known. Writes where they are.
+    pub(crate) fn take_over(&mut self, joints: &mut JointVector) {
         for joint in &mut self.joints {
             let now = joint.now();
             let Some(place) = joints.get_mut(joint.joint) else {
@@ -213,11 +214,6 @@ impl CompensatedJoints {
             if let Some(side) = &mut joint.side {
                 *place = joint.by.nominal(joint.by.compensated(*place, now), 0.0);
                 side.forget(*place);
-            }
-            if let Some(axis) = joint.axis.filter(|_| !joint.is_second)
-                && let Some(slot) = axes.get_mut(axis.index())
-            {
-                *slot = *place;
             }
         }
     }

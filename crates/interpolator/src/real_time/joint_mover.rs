@@ -148,8 +148,9 @@ fn bounds(config: &Config) -> [Bounds; JOINTS] {
         a: bounds.acceleration,
         j: bounds.jerk,
     });
+    let is_crossed = config.mechanism.cross().is_some();
     let compensated = bounds.iter_mut().zip(&config.compensation);
-    for (bounds, _) in compensated.filter(|(_, made)| made.is_some()) {
+    for (bounds, _) in compensated.filter(|(_, made)| is_crossed || made.is_some()) {
         for limit in [&mut bounds.v, &mut bounds.a, &mut bounds.j] {
             *limit *= COMPENSATED;
         }

@@ -71,7 +71,13 @@ impl Joints {
     /// The position is taken over from the drives: on which side of their play joints stand is not known any more.
     /// Writes where joints and axes are then.
     pub(crate) fn take_over(&mut self, joints: &mut JointVector, axes: &mut AxisVector) {
-        self.compensated.take_over(joints, axes);
+        if self.compensated.is_empty() {
+            return;
+        }
+        self.compensated.take_over(joints);
+        if let Ok(moved) = self.mechanism.forward(joints, axes) {
+            *axes = moved;
+        }
     }
 
     /// Writes into a setpoint where joints are, of which those in `follows` may have moved by
@@ -108,14 +114,8 @@ impl Joints {
         let mut motion = *motion;
         motion.position += self.offset;
         self.compensated.restore(&mut motion);
-        // Joints are axes here, so that their rates go the same way as their positions.
         let near = AxisVector::from(setpoint.position);
-        let axes = |joints: &JointVector| self.mechanism.forward(joints, &near);
-        Ok([
-            axes(&motion.position)?,
-            axes(&motion.velocity)?,
-            axes(&motion.acceleration)?,
-        ])
+        self.mechanism.axes_motion(&motion, &near)
     }
 
     /// A second joint does what the first one of its axis does.

@@ -183,9 +183,7 @@ impl Config {
             limits,
             hand_limits: limits,
             soft_limits: SoftLimits::none(),
-            mechanism: Mechanism::Trivial(Trivial {
-                axes: AxisList::new(&Axis::ALL),
-            }),
+            mechanism: Mechanism::Trivial(Trivial::new(AxisList::new(&Axis::ALL))),
             joint_limits: JointLimits::NONE,
             compensation: [None; JOINTS],
             superposition: None,

@@ -18,19 +18,19 @@ mod spline;
 mod table;
 
 use crate::JointLimit;
-use spline::Spline;
-use table::STEEPEST;
+pub(crate) use spline::Spline;
 pub use table::{CompensationError, CompensationPoint, MOST_POINTS};
+pub(crate) use table::{STEEPEST, ascends};
 
 /// Share of the velocity, acceleration and jerk of a joint with play that taking it up may use. A play of b takes
 /// 4 ∛(b / 2j): of the three only jerk costs time. A quarter of it takes 55 ms for 50 µm on a mill of 40 m/s³.
 pub const TAKE_UP: [f64; 3] = [0.03, 0.1, 0.25];
 /// Less than this of a limit is no limit to plan with: the table is rough, or its points are too near each other.
-const LEAST_LEFT: f64 = 0.2;
+pub(crate) const LEAST_LEFT: f64 = 0.2;
 /// What two ways may differ by the wrong way round, mm or degrees: what a gauge is off.
 const GAUGE: f64 = 2e-3;
 /// A little of each limit, for the rounding of positions and their differences.
-const SPARE: f64 = 1e-4;
+pub(crate) const SPARE: f64 = 1e-4;
 /// Newton's steps from m to q: each squares the error, and the first guess is off by a hundredth at most.
 const STEPS: usize = 4;
 
@@ -62,13 +62,7 @@ impl JointCompensation {
         if points.len() == 1 || points.len() > MOST_POINTS {
             return Err(CompensationError::Points(points.len()));
         }
-        for pair in points.windows(2) {
-            if let [one, other] = pair
-                && one.position >= other.position
-            {
-                return Err(CompensationError::Order(one.position, other.position));
-            }
-        }
+        ascends(points.iter().map(|at| at.position))?;
         let of = |value: &dyn Fn(&CompensationPoint) -> f64| {
             let points: Vec<_> = points.iter().map(|at| (at.position, value(at))).collect();
             points

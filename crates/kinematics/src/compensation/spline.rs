@@ -4,9 +4,11 @@
 //! limit at 1 ms (steps of slope of 2·10⁻⁴ at 200 mm/s). The natural spline has a continuous second derivative
 //! everywhere, also where it goes on straight, because it is 0 at both ends.
 
+use glidepath_geometry::number::{Number, Series};
+
 /// A natural cubic spline.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Spline {
+pub(crate) struct Spline {
     /// The points, ascending, at least two; the second derivative at each.
     knots: Box<[Knot]>,
 }
@@ -20,15 +22,15 @@ struct Knot {
 
 /// Value and derivatives at a place.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Rates {
-    pub(super) value: f64,
-    pub(super) first: f64,
-    pub(super) second: f64,
+pub(crate) struct Rates {
+    pub(crate) value: f64,
+    pub(crate) first: f64,
+    pub(crate) second: f64,
 }
 
 impl Spline {
     /// The spline through points whose places ascend. At least two of them; otherwise it is 0 everywhere.
-    pub(super) fn through(points: &[(f64, f64)]) -> Self {
+    pub(crate) fn through(points: &[(f64, f64)]) -> Self {
         let mut knots: Box<[Knot]> = points
             .iter()
             .map(|&(x, value)| Knot {
@@ -42,7 +44,7 @@ impl Spline {
     }
 
     /// Value and derivatives. Bounded work: the search halves what is left.
-    pub(super) fn at(&self, x: f64) -> Rates {
+    pub(crate) fn at(&self, x: f64) -> Rates {
         let behind = self.knots.partition_point(|knot| knot.x <= x);
         let [Some(low), Some(high)] =
             [behind.max(1) - 1, behind.max(1)].map(|k| self.knots.get(k).copied())
@@ -72,6 +74,50 @@ impl Spline {
         }
     }
 
+    /// The same along a curve. Of an enclosure the middle says which of the pieces is meant.
+    pub(crate) fn along<const N: usize, T: Number>(&self, x: Series<N, T>) -> Series<N, T> {
+        let place = x.value().nominal();
+        let Rates {
+            value,
+            first,
+            second,
+        } = self.at(place);
+        let way = x - Series::constant(place);
+        let third = Series::constant(self.third_at(place) / 6.0);
+        let bent = Series::constant(0.5 * second) + way * third;
+        Series::constant(value) + way * (Series::constant(first) + way * bent)
+    }
+
+    /// The third derivative, on the far side of a point.
+    fn third_at(&self, x: f64) -> f64 {
+        let behind = self.knots.partition_point(|knot| knot.x <= x);
+        let pair = behind
+            .checked_sub(1)
+            .and_then(|first| self.knots.get(first..=behind));
+        match pair {
+            Some([low, high]) => (high.second - low.second) / (high.x - low.x),
+            _ => 0.0,
+        }
+    }
+
+    /// The lowest and the highest value from one place to another.
+    pub(crate) fn range(&self, from: f64, to: f64) -> [f64; 2] {
+        let turns = self.knots.windows(2).flat_map(|pair| match pair {
+            [low, high] => turns(low, high),
+            _ => [None; 2],
+        });
+        let knots = self.knots.iter().map(|knot| knot.x);
+        let inside = knots
+            .chain(turns.flatten())
+            .filter(|x| (from..=to).contains(x));
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        for x in inside.chain([from, to]) {
+            let value = self.at(x).value;
+            range = [range[0].min(value), range[1].max(value)];
+        }
+        range
+    }
+
     /// No amount anywhere between the first and the last point is larger than this: an interval leaves its chord by
     /// h²/8 of its second derivative at most.
     pub(super) fn bound(&self) -> f64 {
@@ -87,7 +133,7 @@ impl Spline {
     }
 
     /// The largest amounts of the first, second and third derivative anywhere.
-    pub(super) fn most(&self) -> [f64; 3] {
+    pub(crate) fn most(&self) -> [f64; 3] {
         let mut most = [0.0_f64; 3];
         for pair in self.knots.windows(2) {
             let &[low, high] = pair else { continue };
@@ -130,6 +176,16 @@ fn slopes(low: &Knot, high: &Knot) -> [f64; 2] {
         chord - h * (2.0 * low.second + high.second) / 6.0,
         chord + h * (low.second + 2.0 * high.second) / 6.0,
     ]
+}
+
+/// Where an interval is level: the roots of its slope s + M₀ t + (M₁ − M₀) t² / 2h, by the form that loses no digits.
+fn turns(low: &Knot, high: &Knot) -> [Option<f64>; 2] {
+    let h = high.x - low.x;
+    let (square, linear) = (0.5 * (high.second - low.second) / h, low.second);
+    let [slope, _] = slopes(low, high);
+    let root = (linear * linear - 4.0 * square * slope).sqrt();
+    let sum = -0.5 * (linear + root.copysign(linear));
+    [sum / square, slope / sum].map(|t| Some(low.x + t).filter(|_| (0.0..=h).contains(&t)))
 }
 
 /// Solves for the second derivatives: h₀ M₀ + 2 (h₀ + h₁) M₁ + h₁ M₂ = 6 (slope₁ − slope₀) at each inner knot, 0 at
@@ -207,6 +263,20 @@ mod tests {
                 seen <= most * (1.0 + 1e-6) && seen > 0.99 * most,
                 "{seen} {most}"
             );
+        }
+    }
+
+    #[test]
+    fn its_range_is_that_of_its_values() {
+        let (_, spline) = bumpy();
+        for (from, to) in [(-30.0, 230.0), (3.0, 18.0), (40.0, 41.0), (-50.0, -20.0)] {
+            let [low, high] = spline.range(from, to);
+            let values = (0..=20_000).map(|k| from + (to - from) * f64::from(k) / 20_000.0);
+            let values: Vec<f64> = values.map(|x| spline.at(x).value).collect();
+            let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let highest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            assert!(low <= lowest && lowest - low < 1e-8, "{low} {lowest}");
+            assert!(high >= highest && high - highest < 1e-8, "{high} {highest}");
         }
     }
 

@@ -1,7 +1,7 @@
 //! The table of a compensation: its points, and what is wrong with one.
 
 /// The steepest correction, mm by mm: more is no error of a screw but a wrong scale or a wrong unit.
-pub(super) const STEEPEST: f64 = 0.01;
+pub(crate) const STEEPEST: f64 = 0.01;
 /// The most points of a table.
 pub const MOST_POINTS: usize = 256;
 
@@ -46,4 +46,20 @@ pub enum CompensationError {
         /// What is left of it, %.
         left_percent: f64,
     },
+}
+
+/// Whether places ascend.
+///
+/// # Errors
+/// Two that do not.
+pub(crate) fn ascends(mut places: impl Iterator<Item = f64>) -> Result<(), CompensationError> {
+    let mut before = f64::NEG_INFINITY;
+    places.try_for_each(|place| {
+        let last = core::mem::replace(&mut before, place);
+        if last < place {
+            Ok(())
+        } else {
+            Err(CompensationError::Order(last, place))
+        }
+    })
 }

@@ -489,9 +489,7 @@ fn what_gives_no_dimensions_says_why() {
         unreachable,
         Err(CalibrationError::Unreachable { point: 4, .. })
     ));
-    let trivial = Mechanism::Trivial(Trivial {
-        axes: AxisList::new(&[Axis::X]),
-    });
+    let trivial = Mechanism::Trivial(Trivial::new(AxisList::new(&[Axis::X])));
     assert_eq!(dimension_names(&trivial), []);
     let none = calibrate(&trivial, &case.points, &settings());
     assert_eq!(none, Err(CalibrationError::NoDimensions));

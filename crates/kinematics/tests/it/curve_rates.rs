@@ -49,9 +49,7 @@ fn mechanism(name: &str) -> Mechanism {
         ),
         "table-head-bc" => five_axis(Rotaries::TableHead { rotary_point }, Tilt::B, 150.0),
         "head-head" => Mechanism::FiveAxis(head_head(Tilt::A, (false, true))),
-        "trivial" => Mechanism::Trivial(Trivial {
-            axes: AxisList::new(&[Axis::X, Axis::Z]),
-        }),
+        "trivial" => Mechanism::Trivial(Trivial::new(AxisList::new(&[Axis::X, Axis::Z]))),
         other => panic!("no mechanism {other}"),
     }
 }

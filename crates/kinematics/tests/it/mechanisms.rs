@@ -23,9 +23,7 @@ fn machines() -> Vec<Boxed> {
 fn cartesian() -> Vec<Boxed> {
     let all = [Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::B, Axis::C];
     let half = [300.0, 300.0, 200.0, 100.0, 100.0, 400.0];
-    let trivial = Trivial {
-        axes: AxisList::new(&all),
-    };
+    let trivial = Trivial::new(AxisList::new(&all));
     vec![
         (Mechanism::Trivial(trivial), ZERO, half),
         (Mechanism::CoreXy(CoreXy::new(&all)), ZERO, half),

@@ -168,9 +168,7 @@ pub(super) fn config(setup: &Setup) -> Config {
         }),
         m_code_waits: MCodeWaits::new(&setup.waits).unwrap(),
         spindle_override: setup.spindle_override,
-        mechanism: Mechanism::Trivial(Trivial {
-            axes: AxisList::new(&[Axis::X, Axis::Y, Axis::Z]),
-        }),
+        mechanism: Mechanism::Trivial(Trivial::new(AxisList::new(&[Axis::X, Axis::Y, Axis::Z]))),
         ..Config::new(limits(), PERIOD_NS)
     }
 }

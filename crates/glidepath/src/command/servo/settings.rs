@@ -45,7 +45,10 @@ pub(in crate::command) fn settings(config: &MachineConfig) -> ServoSettings {
         .zip(config.compensation.joints())
         .map(|(axis, compensation)| {
             // What is left of a compensated joint's limits is what plans keep to; its drive can do more.
-            let drive = compensation.map(|made| made.drive());
+            let cross = config.mechanism.cross();
+            let drive = compensation
+                .map(|made| made.drive())
+                .or_else(|| cross.and_then(|cross| cross.joint(axis.axis)));
             drive.map_or_else(
                 || with_superposed(config, axis),
                 |drive| (drive.velocity, drive.acceleration, drive.jerk),

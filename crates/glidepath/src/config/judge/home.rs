@@ -102,7 +102,7 @@ impl Judge {
             let homing = self.home(name.as_ref(), table.as_ref(), axis);
             homes[joint] = Some(homing);
             if around.homing == HomingBy::Controller {
-                self.check_home(name.as_ref(), &homing, axis, around.period_t, table.span());
+                self.check_home(name.as_ref(), &homing, axis, around, table.span());
             }
         }
         if around.homing == HomingBy::Controller {
@@ -193,7 +193,7 @@ impl Judge {
         name: &str,
         homing: &JointHoming,
         axis: &AxisConfig,
-        period_t: f64,
+        around: &HomeSurroundings<'_>,
         span: Bytes<usize>,
     ) {
         let bounds = JointBounds {
@@ -205,7 +205,7 @@ impl Judge {
         let limits = format!("axis.{}", axis.axis);
         let own = format!("home.{name}");
         let is_known = !self.has_found(&[limits.as_str(), own.as_str(), "interpolator.period_us"]);
-        if let Err(error) = homing.check(&bounds, period_t)
+        if let Err(error) = homing.check(&bounds, around.period_t)
             && is_known
         {
             let help = "see the table of velocities: glidepath config --explain home";
@@ -217,6 +217,12 @@ impl Judge {
             );
         }
         let (low, high) = axis.travel.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+        let cross = around.mechanism.cross();
+        let by = if cross.is_some_and(|cross| cross.left(axis.axis).is_some()) {
+            ", which is what [squareness] and [straightness] leave of the travel; or the axis more travel, if it has"
+        } else {
+            ""
+        };
         let moves = homing.absolute != Some(false);
         if moves && !(low..=high).contains(&homing.home) {
             self.refuse_home(
@@ -225,7 +231,7 @@ impl Judge {
                     "the home of {name}, {}, is outside of the travel",
                     homing.home
                 ),
-                format!("give a position of {low} to {high}"),
+                format!("give a position of {low} to {high}{by}"),
                 Some(span),
             );
         }

@@ -6,6 +6,7 @@ mod adaptive_feed;
 mod axes;
 mod axis_share;
 mod compensation;
+mod cross_compensation;
 mod feedback;
 mod gears;
 mod home;
@@ -56,16 +57,16 @@ pub(super) fn judge(
     let mut axes: Vec<AxisConfig> = raw_axes()
         .filter_map(|(axis, raw)| Some(judge.axis(axis, raw.as_ref()?)))
         .collect();
-    if axes.is_empty() {
-        judge.diagnostics.push(no_axis(axes_span));
-    }
+    judge.require_axis(&axes, axes_span);
     let names: Vec<Axis> = axes.iter().map(|axis| axis.axis).collect();
-    let mechanism = judge.mechanism(&raw.machine, &names);
+    let mut mechanism = judge.mechanism(&raw.machine, &names);
     let joint_limits = judge.joints(&raw.joint, &mechanism);
     let given = raw_axes().filter_map(|(axis, raw)| Some((axis, raw.as_ref()?)));
     let given: Vec<_> = given.collect();
     judge.complete(&mut axes, &given, (&mechanism, &joint_limits));
     let compensation = judge.compensation(&raw.compensation, &mechanism, &mut axes, &given);
+    let cross = (&raw.squareness, &raw.straightness);
+    judge.cross_compensation(cross, &mut mechanism, &mut axes);
     let feedback = judge.feedback(raw.feedback);
     let is_axes = matches!(mechanism, Mechanism::Trivial(_));
     // Drives come home with all of it.
@@ -132,11 +133,16 @@ pub(super) fn judge(
     }
 }
 
-fn no_axis(span: core::ops::Range<usize>) -> ConfigDiagnostic {
-    ConfigDiagnostic {
-        key: "axis".to_owned(),
-        message: "the machine has no axis".to_owned(),
-        help: Some("add a table such as [axis.X]".to_owned()),
-        span: Some(span),
+impl Judge {
+    /// A machine has an axis.
+    fn require_axis(&mut self, axes: &[AxisConfig], span: core::ops::Range<usize>) {
+        if axes.is_empty() {
+            self.diagnostics.push(ConfigDiagnostic {
+                key: "axis".to_owned(),
+                message: "the machine has no axis".to_owned(),
+                help: Some("add a table such as [axis.X]".to_owned()),
+                span: Some(span),
+            });
+        }
     }
 }

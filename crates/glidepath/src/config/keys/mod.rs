@@ -6,6 +6,7 @@
 
 mod adaptive_feed;
 mod compensation;
+mod cross_compensation;
 mod example;
 mod key;
 mod mechanisms;
@@ -27,6 +28,8 @@ pub fn all() -> impl Iterator<Item = &'static Key> {
         tables::JOINT,
         tables::HOME,
         compensation::COMPENSATION,
+        cross_compensation::SQUARENESS,
+        cross_compensation::STRAIGHTNESS,
         tables::PATH,
         tables::INTERPOLATOR,
         tables::JOG,
@@ -94,10 +97,15 @@ fn general(name: &str) -> String {
     match parts.as_mut_slice() {
         ["axis", axis, ..] if axis.len() == 1 && "XYZABCUVW".contains(*axis) => *axis = "X",
         ["joint" | "home" | "compensation", joint, ..] if is_joint(joint) => *joint = "J0",
+        ["straightness", pair, ..] if is_pair(pair) => *pair = "ZX",
         ["m_codes", code, ..] if code.starts_with('M') => *code = "M6",
         _ => {}
     }
     parts.join(".")
+}
+
+fn is_pair(name: &str) -> bool {
+    name.len() == 2 && name.chars().all(|axis| "XYZABCUVW".contains(axis))
 }
 
 fn is_joint(name: &str) -> bool {

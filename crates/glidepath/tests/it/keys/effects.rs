@@ -41,12 +41,13 @@ fn values_of(key: &Key) -> Vec<Value> {
 }
 
 /// Keys whose values are taken only beside others that change with them.
-const GO_TOGETHER: [&str; 7] = [
+const GO_TOGETHER: [&str; 8] = [
     "machine.kinematics",
     "machine.five-axis.tilt",
     "compensation.J0.positions",
     "compensation.J0.corrections",
     "compensation.J0.corrections_down",
+    "straightness.ZX.positions",
     "spindle.axis",
     "m_codes.M6.done",
 ];

@@ -144,7 +144,8 @@ impl DriveMonitor {
             )?;
             joints.position[joint]
         };
-        let offset = position + self.added(joint, position) - counted;
+        let place = self.place_of(joint, position);
+        let offset = place + self.added(joint, place) - counted;
         let shift = offset - self.offset[joint];
         self.offset[joint] = offset;
         self.unhomed |= 1 << joint;

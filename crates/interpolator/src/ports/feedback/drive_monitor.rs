@@ -16,7 +16,9 @@ use crate::shared::config::feedback::FeedbackSettings;
 use crate::shared::message::TickReport;
 use crate::shared::message::observation::Observation;
 use glidepath_geometry::AxisVector;
-use glidepath_kinematics::{JOINTS, JointCompensation, JointVector, Kinematics as _, Mechanism};
+use glidepath_kinematics::{
+    JOINTS, JointCompensation, JointVector, Kinematics as _, Mechanism, Trivial,
+};
 use glidepath_link::{ContactKind, EndOfEpoch, FaultCause, Feedback, Power, Status};
 
 /// Slower than this a joint is at rest, mm/s or °/s: more than a count in a millisecond.
@@ -267,6 +269,23 @@ impl DriveMonitor {
     pub(super) fn nominal(&self, joint: usize, counted: f64) -> f64 {
         let place = counted + self.offset[joint];
         self.compensation[joint].map_or(place, |by| by.nominal(place, self.sides[joint]))
+    }
+
+    /// Where a joint is when its axis is at a place, and the others are where they are.
+    pub(super) fn place_of(&self, joint: usize, place: f64) -> f64 {
+        let Mechanism::Trivial(Trivial {
+            axes,
+            cross: Some(_),
+        }) = &self.mechanism
+        else {
+            return place;
+        };
+        let mut position = self.near;
+        if let Some(axis) = axes.iter().nth(joint) {
+            position[axis.index()] = place;
+        }
+        let joints = self.mechanism.inverse(&position);
+        joints.map_or(place, |joints| joints[joint])
     }
 
     /// What is added for a place of a joint, in the middle of its play.

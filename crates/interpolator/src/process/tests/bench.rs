@@ -69,9 +69,7 @@ pub(super) fn config(homes: bool) -> Config {
             PERIOD_NS,
             JointFeedback { homes, ..ALLOWED },
         )),
-        mechanism: Mechanism::Trivial(Trivial {
-            axes: AxisList::new(&[Axis::X, Axis::Y, Axis::Z]),
-        }),
+        mechanism: Mechanism::Trivial(Trivial::new(AxisList::new(&[Axis::X, Axis::Y, Axis::Z]))),
         ..Config::new(mill(), PERIOD_NS)
     }
 }

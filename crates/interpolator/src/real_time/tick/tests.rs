@@ -14,6 +14,7 @@
 mod block_ends;
 mod commands;
 mod compensation;
+mod cross_compensation;
 mod end_of_travel;
 mod jog;
 mod jog_in_a_hold;

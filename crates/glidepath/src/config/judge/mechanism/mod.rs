@@ -90,9 +90,7 @@ impl Judge {
                 .as_ref()
                 .map(|raw| self.translational(raw)),
         };
-        let mechanism = found.unwrap_or(Mechanism::Trivial(Trivial {
-            axes: AxisList::new(axes),
-        }));
+        let mechanism = found.unwrap_or(Mechanism::Trivial(Trivial::new(AxisList::new(axes))));
         self.axes_of(&mechanism, axes, at);
         mechanism
     }

@@ -22,7 +22,7 @@ fn error_mm(q: f64) -> f64 {
 }
 
 /// Its table, and play.
-fn screw(backlash: f64) -> &'static JointCompensation {
+pub(super) fn screw(backlash: f64) -> &'static JointCompensation {
     let points: Vec<_> = (-60..=60)
         .map(|k| {
             let position = 10.0 * f64::from(k);
@@ -53,7 +53,7 @@ fn machine(backlash: f64, period_ns: u64) -> Config {
 }
 
 /// The largest part of the drives' own limits that the differences of what they were told take.
-fn worst_of_drives(rig: &Rig) -> f64 {
+pub(super) fn worst_of_drives(rig: &Rig) -> f64 {
     let limits = mill();
     let told: Vec<AxisVector> = rig
         .setpoints
@@ -68,7 +68,13 @@ fn worst_of_drives(rig: &Rig) -> f64 {
 }
 
 fn random_run(seed: u64, backlash: f64, period_ns: u64) -> Rig {
-    let mut rig = Rig::new(machine(backlash, period_ns));
+    random_run_of(machine(backlash, period_ns), seed)
+}
+
+/// A random program on a machine, and an operator who interferes with it.
+pub(super) fn random_run_of(machine: Config, seed: u64) -> Rig {
+    let mut rig = Rig::new(machine);
+    let period_ns = rig.config.period_ns;
     let period_t = rig.config.period_t();
     let limits = rig.config.limits;
     let frames = plan(seed, 3, 1_500, &limits, period_t, AxisVector::zeros());
@@ -111,14 +117,14 @@ fn drives_keep_their_limits_whatever_the_motion_and_the_operator_do() {
 }
 
 /// A nut on a screw, and a carriage that the nut pushes: it has play, and moves only when it is pushed.
-struct Carriage {
-    x: f64,
-    backlash: f64,
+pub(super) struct Carriage {
+    pub(super) x: f64,
+    pub(super) backlash: f64,
 }
 
 impl Carriage {
     /// Where it is when the motor is at m: the nut is where error and place give m, found by halving.
-    fn pushed(&mut self, m: f64) -> f64 {
+    pub(super) fn pushed(&mut self, m: f64) -> f64 {
         let (mut low, mut high) = (m - 1.0, m + 1.0);
         for _ in 0..80 {
             let middle = low.midpoint(high);
