@@ -37,11 +37,17 @@ const LONG_DWELL_S: f64 = 10.0;
 /// Whether the block that was executed waits for long by a P without a decimal point, in a program that begins with a
 /// percent line, as FANUC's do, and is read as LinuxCNC's.
 pub(crate) fn waits_by_whole_seconds<R: BufRead>(program: &Program<R>) -> bool {
+    // First what most programs have not: every block is asked.
+    program.percent && is_long_dwell(program)
+}
+
+#[inline(never)]
+fn is_long_dwell<R: BufRead>(program: &Program<R>) -> bool {
     let block = program.block();
-    let may_be = program.percent && block.dialect == Dialect::LinuxCnc;
+    let is_linuxcnc = block.dialect == Dialect::LinuxCnc;
     let Some(time_s) = block
         .get(b'P')
-        .filter(|time_s| may_be && *time_s > LONG_DWELL_S)
+        .filter(|time_s| is_linuxcnc && *time_s > LONG_DWELL_S)
     else {
         return false;
     };
