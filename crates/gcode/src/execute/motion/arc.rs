@@ -90,7 +90,7 @@ impl Interpreter {
                 center
             }
         };
-        let turns = turns(block)?;
+        let turns = turns(block, ends)?;
         let sweep_rad = sweep(ends, center, counterclockwise, turns);
         let arc = Arc {
             start,
@@ -208,7 +208,7 @@ impl Interpreter {
                 center
             }
         };
-        let turns = turns(block)?;
+        let turns = turns(block, ends)?;
         let sweep_rad = sweep(ends, center, counterclockwise, turns);
         self.arc_in_tilted_frame(block, plane, (start, end), (center, sweep_rad), out)?;
         self.state.position = target;
@@ -317,9 +317,22 @@ fn arc_by_radius(span: SourceSpan) -> Box<BlockDiagnostic> {
 }
 
 /// Turns of an arc: P.
-fn turns(block: &Block) -> Outcome<f64> {
+fn turns(block: &Block, ends: Ends) -> Outcome<f64> {
+    let is_circle = ends.is_closed();
     match whole(block, b'P', MAX_TURNS)? {
-        // Marlin counts the circles in front of the arc, which is one itself where it ends at its start.
+        // Slicers write P1 for one circle, and a Marlin that is not made for P leaves it out.
+        Some(1) if block.dialect == Dialect::Marlin && is_circle => Ok(1.0),
+        Some(2..) if block.dialect == Dialect::Marlin && is_circle => {
+            let message = "a circle of several turns";
+            Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, block.span(b'P'), message)
+                    .because(
+                        "one Marlin makes one turn more than P, another one turn whatever P is",
+                    )
+                    .help("write a circle for each turn"),
+            )
+        }
+        // Marlin counts the circles in front of the arc.
         turns if block.dialect == Dialect::Marlin => Ok(f64::from(turns.unwrap_or(0) + 1)),
         Some(0) => {
             let message = "an arc of no turns";
