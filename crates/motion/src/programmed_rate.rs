@@ -1,6 +1,7 @@
 //! The rate a program asks for, before and after the operator's override.
 
-use glidepath_geometry::{AxisVector, Segment, limit_along};
+use crate::feed_axes::counted_axes;
+use glidepath_geometry::{AXES, AxisVector, Segment, limit_along};
 use glidepath_program::{Limits, Override, Rate};
 
 /// The rate of a segment before any override.
@@ -51,6 +52,18 @@ impl PieceRate {
         Self {
             top_v: feed_v,
             feed_v,
+        }
+    }
+
+    /// How fast the axes that the feed counts may go along a displacement. Rotary axes that hold it up are bounded by
+    /// themselves: what the others do beside, within the tolerance, is held up by nothing but the feed.
+    pub(crate) fn counted_v(&self, displacement: &AxisVector) -> f64 {
+        let counted = counted_axes(displacement);
+        let is_all_counted = (0..AXES).all(|i| counted.contains(&i) || displacement[i] == 0.0);
+        if is_all_counted {
+            self.top_v
+        } else {
+            self.feed_v
         }
     }
 

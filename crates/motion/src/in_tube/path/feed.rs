@@ -2,8 +2,7 @@
 
 use super::reference_path::TubePiece;
 use crate::feed_axes::counted_axes;
-use crate::programmed_rate::PieceRate;
-use glidepath_geometry::{AXES, AxisVector};
+use glidepath_geometry::AxisVector;
 
 /// Speed the feed of a piece allows along a displacement of a feed length. What the piece's feed
 /// counts may be another group of axes than what the displacement's does: beside a rotary move, a
@@ -22,16 +21,4 @@ pub(crate) fn counted_length(piece: &TubePiece, displacement: &AxisVector) -> f6
     let counted = counted_axes(&(piece.end - piece.start));
     let square: f64 = counted.map(|i| displacement[i] * displacement[i]).sum();
     square.sqrt()
-}
-
-/// How fast the axes that the feed counts may go along a displacement. Rotary axes that hold it up are bounded by
-/// themselves: what the others do beside, within the tolerance, is held up by nothing but the feed.
-pub(super) fn counted_v(displacement: &AxisVector, rate: &PieceRate) -> f64 {
-    let counted = counted_axes(displacement);
-    let is_all_counted = (0..AXES).all(|i| counted.contains(&i) || displacement[i] == 0.0);
-    if is_all_counted {
-        rate.top_v
-    } else {
-        rate.feed_v
-    }
 }

