@@ -67,6 +67,7 @@ fn command_line(pid: Pid) -> String {
 mod tests {
     use super::*;
     use std::process::Command;
+    use std::time::Instant;
 
     #[test]
     #[allow(clippy::unwrap_used, reason = "a test")]
@@ -75,8 +76,16 @@ mod tests {
         let line = "sleep 1000 & sleep 1000 & exit 0";
         let mut shell = Command::new("sh").args(["-c", line]).spawn().unwrap();
         assert!(shell.wait().unwrap().success());
+        // One that has not begun its program yet is called as the shell is, and one that is about to has no name.
+        let begun = || {
+            let names = children().into_iter().map(command_line);
+            names.filter(|name| name == "sleep 1000").count()
+        };
+        let until = Instant::now() + Duration::from_secs(60);
+        while begun() < 2 && Instant::now() < until {
+            std::thread::sleep(POLL);
+        }
         let mut names = end_all();
-        // One that has not begun its program yet is still called as the shell is.
         names.retain(|name| name.contains("sleep 1000"));
         assert_eq!(names.len(), 2, "{names:?}");
         assert!(children().is_empty());
