@@ -13,13 +13,7 @@ const IN_TIME: Duration = Duration::from_millis(4);
 const SPEED: f64 = 600.0;
 
 fn line() -> String {
-    let drive = |joint: usize| {
-        format!(
-            "[[drive]]\njoint = {joint}\nposition = {joint}\ncounts_per_mm = 100000.0\nfollowing_error = 50.0\n\
-             quick_stop = 2000.0\n"
-        )
-    };
-    let drives: String = (0..3).map(drive).collect();
+    let drives = super::three_drives();
     format!(
         "[bus]\ninterface = \"none\"\n{drives}[[device]]\nposition = 3\n\
          spindle = {{ mode = \"velocity\", max_rpm = 6000.0, ramp = 4000.0 }}\n\

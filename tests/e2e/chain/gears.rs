@@ -12,13 +12,7 @@ const AT_SPEED: f64 = 0.04;
 
 /// Three drives, the outputs and inputs of two gears, and the drive of the spindle. `shift` says how they are changed.
 fn line(shift: &str) -> String {
-    let drive = |joint: usize| {
-        format!(
-            "[[drive]]\njoint = {joint}\nposition = {joint}\ncounts_per_mm = 100000.0\nfollowing_error = 50.0\n\
-             quick_stop = 2000.0\n"
-        )
-    };
-    let drives: String = (0..3).map(drive).collect();
+    let drives = super::three_drives();
     format!(
         "[bus]\ninterface = \"none\"\n{drives}\
          [[device]]\nposition = 3\ninputs = [{{ at = \"0x6000:01\", number = 10 }}, {{ at = \"0x6010:01\", number = 11 }}]\n\

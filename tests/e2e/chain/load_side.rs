@@ -9,13 +9,7 @@ use glidepath_tests::{Instance, Operated, Watchdog};
 const PATIENCE: Duration = Duration::from_secs(240);
 
 fn line() -> String {
-    let drive = |joint: usize| {
-        format!(
-            "[[drive]]\njoint = {joint}\nposition = {joint}\ncounts_per_mm = 100000.0\nfollowing_error = 50.0\n\
-             quick_stop = 2000.0\n"
-        )
-    };
-    let drives: String = (0..3).map(drive).collect();
+    let drives = super::three_drives();
     format!(
         "[bus]\ninterface = \"none\"\n{drives}[[device]]\nposition = 3\njoint_encoders = [\n\
          {{ joint = 0, use = \"position\", counts_per_mm = 2000.0, apart = 0.5, invert = true }},\n\

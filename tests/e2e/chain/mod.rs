@@ -85,6 +85,17 @@ fn emulated_drives(
     Some((interpolator, bus))
 }
 
+/// The lines of three drives on a bus, with 100 000 counts a millimetre.
+fn three_drives() -> String {
+    let drive = |joint: usize| {
+        format!(
+            "[[drive]]\njoint = {joint}\nposition = {joint}\ncounts_per_mm = 100000.0\nfollowing_error = 50.0\n\
+             quick_stop = 2000.0\n"
+        )
+    };
+    (0..3).map(drive).collect()
+}
+
 /// A zigzag of about so many seconds.
 fn program(seconds: u32) -> String {
     let mut text = String::from("G21 G90 G64 P0.02 F9000\n");

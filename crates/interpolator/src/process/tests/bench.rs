@@ -186,6 +186,23 @@ impl Bench {
         }
     }
 
+    /// That a position that is set is the position of the axis, while its joint stays.
+    #[track_caller]
+    pub(super) fn sets_its_position(&mut self) {
+        self.enable(MachineState::Idle);
+        let before = self.last().joint_position;
+        let set = Command::SetPosition {
+            joint: 0,
+            position: 31.25,
+        };
+        self.command(set).unwrap();
+        self.run(10);
+        let last = self.last();
+        let [x, joint] = [last.position[0], last.joint_position[0]];
+        assert!((x - 31.25).abs() < 1e-9, "{x}");
+        assert!((joint - before[0]).abs() < 1e-9);
+    }
+
     pub(super) fn run(&mut self, ticks: usize) {
         for _ in 0..ticks {
             self.tick();

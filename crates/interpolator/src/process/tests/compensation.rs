@@ -140,21 +140,7 @@ fn a_position_that_is_set_is_the_position() {
         compensated(0.03, config(false)),
         &[JointSettings::default(); 3],
     );
-    bench.enable(MachineState::Idle);
-    let before = bench.last().joint_position;
-    let set = Command::SetPosition {
-        joint: 0,
-        position: 31.25,
-    };
-    bench.command(set).unwrap();
-    bench.run(10);
-    let last = bench.last();
-    assert!(
-        (last.position[0] - 31.25).abs() < 1e-9,
-        "{}",
-        last.position[0]
-    );
-    assert!((last.joint_position[0] - before[0]).abs() < 1e-9);
+    bench.sets_its_position();
 }
 
 /// An axis with two joints, the second of which has another table than the first.

@@ -126,19 +126,5 @@ fn a_position_that_is_set_is_the_position() {
         ..JointSettings::default()
     };
     let mut bench = Bench::new(crossed(config(false)), &[at(0.0), at(50.0), at(0.0)]);
-    bench.enable(MachineState::Idle);
-    let before = bench.last().joint_position;
-    let set = Command::SetPosition {
-        joint: 0,
-        position: 31.25,
-    };
-    bench.command(set).unwrap();
-    bench.run(10);
-    let last = bench.last();
-    assert!(
-        (last.position[0] - 31.25).abs() < 1e-9,
-        "{}",
-        last.position[0]
-    );
-    assert!((last.joint_position[0] - before[0]).abs() < 1e-9);
+    bench.sets_its_position();
 }

@@ -84,6 +84,12 @@ impl<const D: usize> ScaledSegment<D> {
         self.feed.map(|feed| feed / along)
     }
 
+    /// What a way takes at the feed, in the axes that it counts, s.
+    pub(super) fn feed_t(&self, way: &[f64; D]) -> f64 {
+        let counted: [f64; D] = core::array::from_fn(|a| way[a] * self.feed_axes[a]);
+        dot(&counted, &counted).sqrt()
+    }
+
     /// True if the feed sets the top speed, and no limit of an axis.
     pub(super) fn is_feed_bound(&self) -> bool {
         dot(&self.feed, &self.tangent) * self.top >= SLOWER

@@ -27,7 +27,7 @@ use super::scaled_path::ScaledPath;
 use super::solver::Problem;
 use super::spline::Grid;
 use super::tube::Layout;
-use super::way::{at_feed_r, counted_t, turn_before, way_t};
+use super::way::{at_feed_r, turn_before, way_before, way_t};
 
 /// Share of what counts as the feed from which on it is what binds: rounds may plan with as little as
 /// 0.995 of it.
@@ -72,7 +72,7 @@ fn way_on_curve_t<const D: usize>(
     let way_t = if segment.is_all_counted() {
         way_t(path, points, samples, (k, grid))
     } else if segment.is_feed_bound() {
-        counted_t(path, points, samples, (k, grid))
+        segment.feed_t(&way_before(points, (k, grid)))
     } else {
         return None;
     };

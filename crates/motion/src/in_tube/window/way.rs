@@ -42,27 +42,17 @@ pub(super) fn way_t<const D: usize>(
     (k, grid): (usize, &Grid),
 ) -> f64 {
     let segment = &path.segments[samples.piece[k - 1]];
+    let way = way_before(points, (k, grid));
     // Where it is not the feed that sets the top speed, but an axis, as in rapid moves.
-    let way = way_before(points, (k, grid));
     let along_t = dot(&way, &segment.tangent) / segment.top;
-    counted_t(path, points, samples, (k, grid)).max(along_t)
-}
-
-/// What the way in the period before sample `k` takes at the feed, in the axes that it counts, s.
-pub(super) fn counted_t<const D: usize>(
-    path: &ScaledPath<D>,
-    points: &[[f64; D]],
-    samples: &Samples,
-    (k, grid): (usize, &Grid),
-) -> f64 {
-    let segment = &path.segments[samples.piece[k - 1]];
-    let way = way_before(points, (k, grid));
-    let counted: [f64; D] = core::array::from_fn(|a| way[a] * segment.feed_axes[a]);
-    dot(&counted, &counted).sqrt()
+    segment.feed_t(&way).max(along_t)
 }
 
 /// The way in the period before sample `k`.
-fn way_before<const D: usize>(points: &[[f64; D]], (k, grid): (usize, &Grid)) -> [f64; D] {
+pub(super) fn way_before<const D: usize>(
+    points: &[[f64; D]],
+    (k, grid): (usize, &Grid),
+) -> [f64; D] {
     let [before, y] = [k - 1, k].map(|k| sample(points, grid, k));
     core::array::from_fn(|a| y[a] - before[a])
 }
