@@ -22,17 +22,12 @@ impl<R: BufRead> Program<R> {
     /// can be read, unless what follows depends on it: a diagnostic that is fatal, or in an O word,
     /// a subroutine or a loop ends the program.
     pub(crate) fn next_line(&mut self) -> Option<Result<(), Diagnostic>> {
-        if self.block.dialect == Dialect::Siemens
-            && let Some(direction) = direction_behind(&self.items)
-        {
-            self.interpreter.state.tangent = Some(direction);
-        }
         self.items.clear();
         self.given = 0;
         if self.ended {
             return None;
         }
-        if let Some(question) = self.interpreter.options.question.take() {
+        if let Some(question) = &self.interpreter.options.question {
             self.ended = true;
             return Some(Err(question.diagnostic()));
         }
@@ -94,7 +89,13 @@ impl<R: BufRead> Program<R> {
                 }
                 read
             }
-            Dialect::Siemens => self.read_siemens(),
+            Dialect::Siemens => {
+                let read = self.read_siemens();
+                if let Some(direction) = direction_behind(&self.items) {
+                    self.interpreter.state.tangent = Some(direction);
+                }
+                read
+            }
             Dialect::Marlin => self.read_marlin(),
         }
     }

@@ -52,19 +52,22 @@ impl Interpreter {
         let Some(motion) = code.or(self.state.modal.motion) else {
             return false;
         };
-        // The feed of a FANUC is shared with other axes.
-        let shares_feed = motion == Motion::Linear
-            && words.has_any(OTHER_AXES)
-            && self.options.dialect == Dialect::Fanuc
-            && !self.options.fanuc.is_haas();
-        let rolls_over = words.has_any(ROTARY_AXES) && self.rolls_over(Axis::A);
         let is_move = is_straight(motion)
-            && !shares_feed
-            && !rolls_over
             && words.has_any(AXIS_WORDS)
             && words.beside(WORDS).is_empty()
-            && !words.has_any(self.lacking);
+            && !words.has_any(self.lacking)
+            && !(words.has_any(OTHER_AXES) && self.differs_with_others(motion, words));
         is_move && (goes_on || self.begin_run()) && self.go_straight(code, motion, words, out)
+    }
+
+    /// Whether more comes with other axes than X, Y and Z: the feed of a FANUC is shared with them, and rotary axes may
+    /// roll over.
+    fn differs_with_others(&self, motion: Motion, words: &WordValues) -> bool {
+        let options = &self.options;
+        let shares_feed = motion == Motion::Linear
+            && options.dialect == Dialect::Fanuc
+            && !options.fanuc.is_haas();
+        shares_feed || words.has_any(ROTARY_AXES) && self.rolls_over(Axis::A)
     }
 
     #[inline]
