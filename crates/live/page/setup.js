@@ -122,7 +122,7 @@ DEEDS.undo = async () => { const { undo } = S, said = undo && await inMm(`undo $
 function showTable(name) { S.table = name; S.editing = null; paintTables(); if (name === 'devices') fetchDevices(); }
 for (const name of ['move', 'offsets', 'tools', 'touch', 'spindle', 'devices']) DEEDS[`table-${name}`] = () => showTable(name);
 function paintTables() {
-  const tabs = [['move', 'Move'], ['offsets', 'Offsets'], ['tools', 'Tools'], ['touch', 'Touch off'], ['spindle', 'Spindle'], ...DEVICES.known ? [['devices', 'Devices']] : []];
+  const tabs = [['move', 'Move'], ['offsets', 'Offsets'], ['tools', 'Tools'], ['touch', 'Probe'], ['spindle', 'Spindle'], ...DEVICES.known ? [['devices', 'Devices']] : []];
   fill($('#tables-tabs'), tabs.map(([name, title]) => `<button role="tab" class="t-${name}" aria-selected="${S.table === name}" data-do="table-${name}">${title}</button>`).join(''));
   $('#setup').dataset.table = S.table;
   if (S.editing) return;

@@ -1,5 +1,5 @@
 'use strict';
-// Touching off: a probe, or a tool over a plate, goes to the part until it touches; then the part zero, or the
+// Probing: a probe, or a tool over a plate, goes to the part until it touches; then the part zero, or the
 // length of the tool, is set from where it touched. Lines for the planner's service, in one job.
 
 const TOUCH_FIELDS = { reach: 'Farthest way', feed: 'Feed', plate: 'Plate under the tool', tip: 'Ø of the probe', place: 'The place is at', back: 'Then back' };
@@ -9,7 +9,7 @@ const TOUCH = { way: 'Z−', ...touchDefaults(), plate: 0, tip: 0, place: 0, of:
 const touchWays = () => { const names = AXES().map(a => a.name), sides = names.includes('X') && names.includes('Y') ? ['X+', 'X−', 'Y+', 'Y−'] : []; return names.includes('Z') ? ['Z−', ...sides] : sides; };
 const isLength = () => TOUCH.way === 'Z−' && TOUCH.of === 'length';
 function touchTable() {
-  if (!SETUP.probe) return '<p class="lab-text">There is no probe. Name its input: input of [probe] of the configuration, and inputs_outputs = "feedback" of [program].</p>';
+  if (!SETUP.probe) return '<p class="lab-text">There is no probe. Name its input: input of [probe] of the configuration, and inputs_outputs = "feedback" of [program]. By hand: jog until the tool touches the part, press that axis\'s position, and set it to zero there.</p>';
   const radio = (kind, value, on, text) => `<button role="radio" class="choice" aria-checked="${on}" data-do="touch-set" data-kind="${kind}" data-value="${safe(value)}">${text}</button>`;
   const fields = ['reach', 'feed', TOUCH.way === 'Z−' ? 'plate' : 'tip', 'place', 'back'], tool = S.status ? S.status.tool : 0;
   return `<div class="touch"><div class="choices" role="radiogroup" aria-label="which way">${touchWays().map(way => radio('way', way, TOUCH.way === way, way)).join('')}</div>`
@@ -77,7 +77,7 @@ async function toItsEnd(said) {
     paintTouch();
   }
 }
-/* What a touch-off has set can be set back, also where it ended early behind that. */
+/* What probing has set can be set back, also where it ended early behind that. */
 function judgeTouch() {
   const { undo } = TOUCH;
   if (undo && concerned(undo.line) !== undo.before) { TOUCH.undo = null; offerUndo(undo); }

@@ -24,7 +24,7 @@ fn number(browser: &mut Browser, expression: &str) -> f64 {
     browser.evaluate(expression).as_f64().unwrap()
 }
 
-/// A touch-off is one job: nobody else gets in between.
+/// Probing a place is one job: nobody else gets in between.
 fn touches(browser: &mut Browser) {
     let jobs = |browser: &mut Browser| {
         browser.wait("S.status.page_jobs.every(job => job.state !== 'running')");

@@ -44,7 +44,7 @@ pub(crate) fn root() -> PathBuf {
         .unwrap()
 }
 
-/// Every block of commands of the introduction, of the deployment and of the manual's pages.
+/// Every block of commands of the introduction and of the manual's pages.
 pub(crate) fn all() -> Vec<Block> {
     let docs = root().join("crates/glidepath/docs");
     let mut pages: Vec<PathBuf> = std::fs::read_dir(docs)
@@ -53,7 +53,7 @@ pub(crate) fn all() -> Vec<Block> {
         .filter(|path| path.extension().is_some_and(|ending| ending == "md"))
         .collect();
     pages.sort();
-    pages.extend(["README.md", "deploy/README.md"].map(|page| root().join(page)));
+    pages.push(root().join("README.md"));
     pages.iter().flat_map(|page| of_page(page)).collect()
 }
 

@@ -10,7 +10,6 @@ fn pages() -> Vec<PathBuf> {
         ".github/CONTRIBUTING.md",
         "crates/README.md",
         "crates/glidepath/CHANGELOG.md",
-        "deploy/README.md",
     ]
     .map(|page| root().join(page))
     .into();

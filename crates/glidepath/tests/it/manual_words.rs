@@ -14,7 +14,7 @@ fn pages() -> Vec<PathBuf> {
         .map(|entry| entry.expect("a page").path())
         .filter(|path| path.extension().is_some_and(|ending| ending == "md"))
         .collect();
-    pages.extend(["README.md", "deploy/README.md"].map(|page| root.join(page)));
+    pages.push(root.join("README.md"));
     pages.sort();
     pages
 }

@@ -10,7 +10,10 @@ const SECTIONS: [(&str, &str); 14] = [
     ("EMC", "names and versions of LinuxCNC's own"),
     ("DISPLAY", "the operator's screen is no part of this"),
     ("FILTER", "programs are read as they are"),
-    ("TASK", "processes are services here, see deploy/README.md"),
+    (
+        "TASK",
+        "processes are services here, see deployment.md of the manual",
+    ),
     ("EMCMOT", "threads and modules of LinuxCNC's own"),
     (
         "HAL",
