@@ -87,7 +87,13 @@ impl Corner {
         let inner = across(at_corner_inner, &along)
             .try_normalize(1e-6)
             .unwrap_or_default();
-        (-inner.dot(&off)).max(0.0)
+        let outside_mm = (-inner.dot(&off)).max(0.0);
+        // Among moves of a few tolerances the motion may be taken to be on one that it has left. Whoever is further off
+        // than the tolerance is on another one; if not, it is the deviation that is found.
+        if outside_mm > 1.001 * here.tolerance_mm {
+            return 0.0;
+        }
+        outside_mm
     }
 }
 
