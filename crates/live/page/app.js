@@ -258,7 +258,10 @@ function digits() {
     $(`#w${axis.name}`).parentElement.classList.toggle('lost', lost);
     // What an input adds to the axis is in none of the positions.
     const added = (s.superposed || {})[axis.name] || 0, below = $(`#m${axis.name}`);
-    put(below, lost ? 'not homed' : added ? `Δ ${added < 0 ? '' : '+'}${place(axis, added)}` : s.offset ? place(axis, machine[k]) : axis.travel ? axis.travel.map(end => place(axis, end, 3)).join(' … ') : 'turns');
+    const under = lost ? 'not homed' : added ? `Δ ${added < 0 ? '' : '+'}${place(axis, added)}` : s.offset ? place(axis, machine[k]) : axis.travel ? axis.travel.map(end => place(axis, end, 3)).join(' … ') : 'turns';
+    put(below, under);
+    // The ends of a long axis are as wide as the place for them.
+    below.style.fontSize = `${Math.min(1.2, 13.2 / under.length).toFixed(2)}em`;
     below.title = added ? `in addition to the program: ${s.superposition_text}` : '';
     const rail = $(`#t${axis.name}`);
     rail.parentElement.hidden = !axis.travel;
