@@ -12,7 +12,7 @@ const PART_Z: f64 = -7.25;
 
 /// Fast to the part, back, and slowly to it again; then Z0 is its surface.
 const TOUCH_OFF: &str = "G21 G90 G94 G54\nG0 X5 Y2\nG38.2 Z-20 F300\nG91 G0 Z1\nG38.2 Z-3 F30\nG90\n\
-                         G10 L2 P1 Z#5063\nG0 Z3\nM2\n";
+                         G10 L20 P1 Z[#5422 - #5063]\nG0 Z3\nM2\n";
 
 #[test]
 fn programs_go_on_from_where_the_probe_touched() {
@@ -36,11 +36,15 @@ fn programs_go_on_from_where_the_probe_touched() {
     let _ready = bench.wait_for(MachineState::Idle);
 
     let program = instance.file("touch.ngc", TOUCH_OFF);
-    bench.operate(&["run-file", &program]);
-    let [x, y, z] = bench.position();
-    assert!((x - 5.0).abs() < 1e-9 && (y - 2.0).abs() < 1e-9, "{x} {y}");
-    // F30 is half a micrometre between two samples of a drive; a host of tests takes fewer.
-    assert!((z - PART_Z - 3.0).abs() < 0.02, "{z}");
+    // The second time its offset is in force already.
+    for _ in 0..2 {
+        bench.operate(&["run-file", &program]);
+        let [x, y, z] = bench.position();
+        assert!((x - 5.0).abs() < 1e-9 && (y - 2.0).abs() < 1e-9, "{x} {y}");
+        // F30 is half a micrometre between two samples of a drive; a host of tests takes fewer.
+        assert!((z - PART_Z - 3.0).abs() < 0.02, "{z}");
+    }
+    let z = bench.position()[2];
 
     // Without a contact it is an error, or not, as the code says.
     bench.operate(&["mdi", "G38.3 Z20 F600"]);

@@ -59,7 +59,7 @@ function paintWho() {
   const old = S.refusal && performance.now() - S.refused_at > 12000;
   if (old) S.refusal = '';
   let html;
-  if (S.refusal) html = `${icon('warn', 'warn')}<span>${safe(S.refusal)}</span>`;
+  if (S.refusal) html = `${icon('warn', 'warn')}<button class="refusal" data-do="leave-refusal" title="press to close">${safe(S.refusal.replaceAll('\n', ' · '))}</button>`;
   else if (S.asked_for) html = `<span><b>Another page wants to operate.</b></span>${key('give-seat', 'Give', { press: SHORT })}${key('keep-seat', 'Keep')}`;
   else if (S.may === 'operate' && !S.operates) html = `<span><b>Another page operates.</b>${S.asks ? '<br>It is asked.' : ''}</span>${S.asks ? '' : key('ask-seat', 'Ask for it')}`;
   else if (S.may === 'operate') html = '<span><b>You operate.</b><br>Not for emergencies.</span>';
@@ -69,6 +69,7 @@ function paintWho() {
   $('#app').dataset.says = S.refusal.length > 60 ? 2 : S.refusal || S.asked_for ? 1 : 0;
   fill($('#mode'), html);
 }
+DEEDS['leave-refusal'] = () => { S.refusal = ''; paintWho(); };
 /* The panel in place of the text: what a person has to do, with the buttons for it. */
 const REASONS = ['the tool is not there', 'the tool does not fit', 'the program asks for the wrong one', 'it cannot be done now'];
 function attentionKeys() {

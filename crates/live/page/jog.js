@@ -3,6 +3,8 @@
 // dies in between, the axes come to rest.
 
 const SIGN = 50, STALL = 150;
+// How near to the end of its travel an axis is at it, mm or degrees.
+const END_MM = 0.01;
 const JOG = { gesture: null, step: 0, part: 0.2, timer: 0, mine: null };
 const jogVelocity = name => (SETUP.jog && SETUP.jog.velocity[name] || 0) * JOG.part;
 const canJog = () => ['idle', 'held', 'program-stop', 'jogging', 'not-homed'].includes(S.state);
@@ -46,7 +48,13 @@ function paintStep() {
   const words = mine && { asked: 'is asked for', 'under-way': 'under way', done: 'done', not: `not done, or not to its end: ${mine.text}` }[mine.state];
   const dead = SETUP.jog ? SETUP.jog.dead_man_ms : 150, v = AXES().length ? jogVelocity(AXES()[0].name) : 0;
   const slip = `Contact lost: the axes begin to stop within ${lengthText(v / 60 * dead / 1000, 1)} ${lengthUnit()}.`;
-  put($('#jogslip'), JOG.step ? mine ? `${mine.label}: ${words}.` : 'One step for each press.' : slip);
+  put($('#jogslip'), atEnd() || (JOG.step ? mine ? `${mine.label}: ${words}.` : 'One step for each press.' : slip));
+}
+/* The axes that a finger wants to move on beyond the end of their travel. */
+function atEnd() {
+  if (!JOG.gesture) return '';
+  const machine = machineNow(), ended = AXES().filter((a, k) => a.travel && JOG.gesture.axes[a.name] && Math.abs(machine[k] - a.travel[JOG.gesture.axes[a.name] < 0 ? 0 : 1]) < END_MM);
+  return ended.length ? `${ended.map(a => nameOf(a.name)).join(' ')} ${ended.length > 1 ? 'are' : 'is'} at the end of ${ended.length > 1 ? 'their' : 'its'} travel.` : '';
 }
 async function tellJog() {
   const gesture = JOG.gesture;

@@ -169,6 +169,9 @@ async function startHands() {
 }
 /* The commands of texts, as the buttons of this page. */
 const BUTTONS = { resume: 'Resume', hold: 'Hold', abort: 'Abort', reset: 'Reset', forward: 'Forward', enable: 'Power', home: 'Home', return: 'Return', acknowledge: 'the answer below' };
+/* The views that these are in: no other one has them. */
+const BUTTON_VIEWS = { enable: ['setup'], home: ['setup'], reset: ['operate', 'setup'], return: ['operate'], forward: ['operate'] };
+const buttonOf = name => { const views = BUTTON_VIEWS[name]; return views && S.view !== 'glance' && !views.includes(S.view) ? `${BUTTONS[name]} (in ${VIEWS[views[0]]})` : BUTTONS[name]; };
 const OVERRIDES = { '100': 'Feed at 100 %', '--rapid 100': 'Rapid at 100 %', '100 --rapid 100': 'Feed and Rapid at 100 %' };
 const buttonWords = text => S.may !== 'operate' ? plain(String(text)) : String(text).replace(/`glidepath ([a-z-]+) ?([^`]*)`/g, (whole, name, more) =>
-  (name === 'override' ? OVERRIDES[more.replace(/ --(config|instance) .*/, '')] : BUTTONS[name]) || whole.replaceAll('`', ''));
+  (name === 'override' ? OVERRIDES[more.replace(/ --(config|instance) .*/, '')] : buttonOf(name)) || whole.replaceAll('`', ''));

@@ -27,11 +27,11 @@ function paintSetUp() {
   if (!s || !SETUP.jog || S.view !== 'setup') return;
   const not = notOperating(), simulated = s.power === 'simulated', on = simulated || s.power === 'on', homed = !!s.not_homed && !s.not_homed.length;
   const zero = active(), hasZero = !!zero && Object.values(zero.origin).some(x => x !== 0), rests = ['idle', 'off', 'not-homed', 'faulted'].includes(S.state);
-  const step = (deed, title, done, now, why, next) => `<button class="key rail ${done ? 'done' : next ? 'next' : ''}" data-do="${deed}" data-press="${SHORT}" ${why ? 'aria-disabled="true"' : ''}><i class="fill"></i><span>${icon(done ? 'ok' : 'dot')}${title}</span><small>${safe(why && !done ? why : now)}</small></button>`;
+  const step = (deed, title, done, now, why, next, press = SHORT) => `<button class="key rail ${done ? 'done' : next ? 'next' : ''}" data-do="${deed}" data-press="${press}" ${why ? 'aria-disabled="true"' : ''}><i class="fill"></i><span>${icon(done ? 'ok' : 'dot')}${title}</span><small>${safe(why && !done ? why : now)}</small></button>`;
   const fault = S.state === 'faulted' ? 'reset first' : '';
   fill($('#rail'),
-    (on ? step('power-off', 'Power', true, simulated ? 'simulated' : 'on', not || (simulated ? 'simulated' : rests ? '' : 'it moves'), false) : step('power', 'Power', false, s.power === 'enabling' ? 'coming on' : 'press ½ s', not || fault || unknown(), true))
-    + step('home', 'Home', homed, homed ? 'all axes' : `${(s.not_homed || []).join(' ')}: press ½ s`, not || fault || (on ? S.state === 'homing' ? 'under way' : rests ? '' : 'not now' : 'power first'), on && !homed)
+    (fault ? step('reset', 'Reset', false, 'press 1 s', not, true, LONG) : on ? step('power-off', 'Power', true, simulated ? 'simulated' : 'on', not || (simulated ? 'simulated' : rests ? '' : 'it moves'), false) : step('power', 'Power', false, s.power === 'enabling' ? 'coming on' : 'press ½ s', not || fault || unknown(), true))
+    + step('home', 'Home', homed, homed ? 'all axes' : `${[...new Set((s.not_homed || []).map(jointWords))].join(' ')}: press ½ s`, not || fault || (on ? S.state === 'homing' ? 'under way' : rests ? '' : 'not now' : 'power first'), on && !homed)
     + step('show-zero', 'Part zero', hasZero, SETUP.keeps ? zero ? `${zero.name}${hasZero ? '' : ' is at 0'}` : 'none is kept yet' : 'not kept', '', on && homed && !hasZero)
     + step('show-tools', 'Tool', !!s.tool, s.tool ? `T${s.tool}` : 'none told', '', false));
   const why = whyNoLine();
@@ -53,13 +53,15 @@ function laySetUp() {
 }
 DEEDS.touch = b => { $('#number').value = ''; S.sheet = S.sheet === +b.dataset.axis ? null : +b.dataset.axis; paintSheet(); if (S.sheet !== null) $('#number').focus(); };
 DEEDS['close-sheet'] = () => { S.sheet = null; paintSheet(); };
+/* A joint by the axis that it moves, where it moves one. */
+const jointWords = joint => (SETUP.joints || [])[+joint.slice(1)] || joint;
 function paintSheet() {
   const axis = S.sheet === null ? null : AXES()[S.sheet];
   $('#sheet').hidden = !axis; $('#sheet').classList.toggle('on', !!axis); $('#setup').classList.toggle('sheet', !!axis);
   if (!axis) return;
   const why = whyNoLine(), s = S.status, joint = (SETUP.joints || []).indexOf(axis.name), notHomed = (s.not_homed || []).includes(`J${joint}`);
   const system = SETUP.active || 'the work offset';
-  fill($('#sheetkeys'), `<div class="row">${key('zero', `Zero ${axis.name}`, { why, kind: 'main' })}${key('half', 'Half', { why })}${key('value', 'Set to value', { why })}</div><div class="row">${key('go-to', `Go to value`, { press: SHORT, why, sub: 'rapid: press ½ s' })}${joint >= 0 && SETUP.homing !== 'none' ? key('home', `Home ${axis.name}`, { press: SHORT, why: notOperating() || unknown(), sub: notHomed ? 'not homed' : 'again: press ½ s', data: `data-joint="${joint}"` }) : ''}${key('close-sheet', 'Close')}</div>`);
+  fill($('#sheetkeys'), `<div class="row">${key('zero', `Zero ${axis.name}`, { why, kind: 'main' })}${key('half', 'Half', { why })}${key('value', 'Set to value', { why })}</div><div class="row">${key('go-to', `Go to value`, { press: SHORT, why, sub: 'rapid: press ½ s' })}${joint >= 0 && SETUP.homing !== 'none' ? key('home', `Home ${axis.name}`, { press: SHORT, why: notOperating() || unknown() || (S.state === 'faulted' ? 'reset first' : ''), sub: notHomed ? 'not homed' : 'again: press ½ s', data: `data-joint="${joint}"` }) : ''}${key('close-sheet', 'Close')}</div>`);
   put($('#sheethead'), `${nameOf(axis.name)} in ${system}, ${unitOf(axis)}`);
 }
 const touched = () => AXES()[S.sheet];
@@ -141,7 +143,7 @@ function offsetTable() {
   return `<table class="edit"><tr><th>system</th>${axes.map(a => `<th>${nameOf(a)}</th>`).join('')}<th>turned</th><th></th></tr>${SETUP.systems.map(system => `<tr class="${system.name === SETUP.active ? 'on' : ''}"><td><b>${system.name}</b></td>${axes.map(a => cell(`${system.name}, ${a}`, `G10 L2 P${system.number} ${a}`, system.origin[a], a)).join('')}${cell(`${system.name}, turned`, `G10 L2 P${system.number} R`, system.rotation_deg, 'turned')}<td>${system.name === SETUP.active ? '<span class="chip">in use</span>' : key('use', 'Use', { press: SHORT, why: whyNoLine(), data: `data-line="${system.name}"` })}</td></tr>`).join('')}</table>`;
 }
 function toolTable() {
-  if (!(SETUP.tools || []).length) return '<p class="lab-text">There are no tools. Name a table: tool_table of [program] of the configuration.</p>';
+  if (!(SETUP.tools || []).length) return '<p class="lab-text">There are no tools. Name a table in the format of LinuxCNC: tool_table of [program] of the configuration, with a line a tool, such as T1 P1 Z50 D6 ;end mill.</p>';
   const axes = AXES().map(a => a.name).filter(a => a === 'Z' || SETUP.tools.some(tool => [tool, ...(tool.edges || [])].some(edge => edge.offset[a])));
   return `<table class="edit"><tr><th>tool</th><th class="l">name</th>${axes.map(a => `<th>${a === 'Z' ? 'length Z' : nameOf(a)}</th>`).join('')}<th>Ø</th></tr>${SETUP.tools.map(tool => `<tr class="${S.status && tool.number === S.status.tool ? 'on' : ''}"><td><b>T${tool.number}</b></td><td class="l">${safe(tool.name || '')}</td>${axes.map(a => cell(`T${tool.number}, ${a === 'Z' ? 'length' : a}`, `G10 L1 P${tool.number} ${a}`, tool.offset[a], a)).join('')}${cell(`T${tool.number}, Ø`, `G10 L1 P${tool.number} R`, tool.diameter_mm, 'diameter')}</tr>${(tool.edges || []).map(edge => `<tr><td>D${edge.edge}</td><td></td>${axes.map(a => `<td class="n">${cellText(a, edge.offset[a])}</td>`).join('')}<td class="n">${cellText('diameter', edge.diameter_mm)}</td></tr>`).join('')}`).join('')}</table>${SETUP.keeps ? '' : '<p class="lab-text">Changes last as long as the planner’s service: name a folder, directory of [state].</p>'}`;
 }
@@ -174,7 +176,10 @@ DEEDS.edit = b => {
 const TYPED = { at: -1 };
 function paintLines() {
   const s = S.status, lines = (s && s.page_jobs || []).filter(job => job.kind !== 'file');
-  fill($('#typed'), lines.slice(0, 6).reverse().map(job => `<div class="${job.state}"><span class="n lab">${clock(job.at_ms)}</span><code>${safe(job.name)}</code><span>${job.state === 'running' ? 'runs' : job.state === 'done' ? 'done' : safe(buttonWords(job.text))}</span></div>`).join(''));
+  const newest = lines.length ? `${lines[0].number} ${lines[0].state}` : '', list = $('#typed');
+  fill(list, lines.slice(0, 6).reverse().map(job => `<div class="${job.state}"><span class="n lab">${clock(job.at_ms)}</span><code>${safe(job.name)}</code><span>${job.state === 'running' ? 'runs' : job.state === 'done' ? 'done' : safe(buttonWords(job.text))}</span></div>`).join(''));
+  // The last one is at the bottom.
+  if (TYPED.newest !== newest) { TYPED.newest = newest; list.scrollTop = list.scrollHeight; }
   const why = whyNoLine(), button = $('#runline');
   setKey(button, 'Run line', { press: SHORT, why, sub: 'press ½ s', kind: why ? '' : 'main' });
   judgeAnew();

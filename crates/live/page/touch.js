@@ -15,7 +15,7 @@ function touchTable() {
   return `<div class="touch"><div class="choices" role="radiogroup" aria-label="which way">${touchWays().map(way => radio('way', way, TOUCH.way === way, way)).join('')}</div>`
     + (TOUCH.way === 'Z−' ? `<div class="choices" role="radiogroup" aria-label="what is set">${radio('of', 'zero', !isLength(), 'Part zero')}${radio('of', 'length', isLength(), tool ? `Length of T${tool}` : 'Length of the tool')}</div>` : '')
     + `<div class="fields">${fields.map(name => `<label class="field"><span class="lab">${TOUCH_FIELDS[name]}, ${name === 'feed' ? feedUnit() : lengthUnit()}</span><input data-touch="${name}" inputmode="decimal" autocomplete="off" value="${isFinite(TOUCH[name]) ? typedText(TOUCH[name], perUnit()) : ''}"></label>`).join('')}</div>`
-    + `<p class="lab-text">Jog until the ${TOUCH.way === 'Z−' ? 'tool is over the plate or the part' : 'probe is beside the part'}.</p><div id="touchsteps"></div><div class="row">${key('touch-go', `Touch ${TOUCH.way}`, { press: SHORT, sub: 'press ½ s', kind: 'main' })}</div></div>`;
+    + `<p class="lab-text">Jog until the ${TOUCH.way === 'Z−' ? 'tool is over the plate or the part' : 'probe is beside the part'}.</p><div class="row">${key('touch-go', `Touch ${TOUCH.way}`, { press: SHORT, sub: 'press ½ s', kind: 'main' })}<div id="touchsteps"></div></div></div>`;
 }
 DEEDS['touch-set'] = b => { TOUCH[b.dataset.kind] = b.dataset.value; paintTables(); };
 function paintTouch() {
@@ -34,6 +34,8 @@ function whyNoTouch() {
   if (!(feed > 0) || feed > most) return `the feed is at most ${feedText(most)}`;
   if (!(plate >= 0) || !(tip >= 0) || !(back >= 0)) return 'not less than 0';
   if (isLength() && !(S.status && S.status.tool)) return 'no tool is told: T1 M6 first';
+  if (isLength() && !(SETUP.tools || []).length) return 'there is no tool table';
+  if (S.status && turnsNow(S.status)) return 'the spindle turns: stop it first';
   return whyNoLine();
 }
 /* The lines: `#5061` and on are where it touched, `#5420` and on where it came to rest behind that. */
@@ -57,9 +59,11 @@ DEEDS['touch-go'] = async () => {
   const name = `touch ${TOUCH.way}`, behind = isLength() ? [`G43 H${S.status.tool}`] : [];
   const why = await toItsEnd(await inMm(name, lines, behind));
   setTimeout(() => { if (TOUCH.undo === undo) TOUCH.undo = null; }, 3000);
-  if (why) TOUCH.says = why; else TOUCH.step = 4;
+  if (why) TOUCH.says = touchWords(why); else TOUCH.step = 4;
   paintTouch();
 };
+/* Why it ended, in words of whoever wrote no lines. */
+const touchWords = why => /did not find a contact/.test(why) ? `no contact within ${lengthText(TOUCH.reach, 3)} ${lengthUnit()}: the tool stands at the end of its way, and nothing is set` : why;
 /* Waits for the end of a job that was handed in. Gives back why it was not executed; nothing if it was. */
 async function toItsEnd(said) {
   if (!said.accepted) return buttonWords(said.reason);

@@ -51,10 +51,19 @@ function cause() {
   // In these nothing of a program is under way.
   const alone = ['idle', 'preparing', 'off', 'not-homed', 'homing', 'jogging'].includes(S.state);
   const text = told(s.state_text || S.state);
+  if (S.state === 'idle') return `${sentence(text)}.${leftWords(s)}`;
   if (alone) return `${sentence(text)}.`;
   // A telephone has no other place for it.
   if (S.view === 'glance' && unread(s)) return `${program}${line(s)}: “${unread(s)}”`;
   return program ? `${program}${line(s)}: ${text}.` : `${sentence(`${line(s)}: ${text}`)}.`;
+}
+/* What a machine at rest leaves open: a program that was not ended, and a spindle that turns. */
+const turnsNow = s => !!s.spindle && ['clockwise', 'counterclockwise'].includes(s.spindle.turns);
+/* The last program, if it did not come to its end. */
+const brokenOff = s => { const job = (s.day || []).find(job => !job.name.startsWith('mdi ')); return job && (job.end === 'aborted' || job.end === 'fault') && job.line ? job : null; };
+function leftWords(s) {
+  const job = brokenOff(s);
+  return `${turnsNow(s) ? ' The spindle turns.' : ''}${job ? ` ${job.name} ${job.end === 'fault' ? 'ended by a fault' : 'was aborted'} at line ${job.line}${S.may === 'operate' ? '; From line, in Programs, goes on' : ''}.` : ''}`;
 }
 /* Texts come from the machine: commands in backticks, no capital, no full stop. */
 const plain = text => text.replaceAll('`', '');

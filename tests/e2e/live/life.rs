@@ -130,7 +130,7 @@ fn run(browser: &mut Browser, operated: &Operated<'_>, file: &str) {
     browser.drop_file("#list", file);
     browser.wait("FOLDER.chosen === 'life.ngc' && LOOK.info && LOOK.info.report");
     // What was found, and how long it takes: 82 ways of 179 mm at 100 mm/s, and a little for the corners.
-    browser.wait("document.querySelector('#found').textContent.includes('Nothing was found')");
+    browser.wait("document.querySelector('#found').textContent.includes('No mistakes found')");
     let takes = browser.evaluate("LOOK.info.seconds").as_f64().unwrap();
     assert!((143.0..160.0).contains(&takes), "{takes}");
     let run = "#chosen [data-do=run]";

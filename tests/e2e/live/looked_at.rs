@@ -177,13 +177,13 @@ fn what_a_program_does_not_say_is_shown_before_it_runs() {
         "{found}.includes('The text ends without M2, M30 or a last %')"
     ));
     assert_eq!(
-        browser.evaluate(&format!("{found}.includes('Nothing was found')")),
+        browser.evaluate(&format!("{found}.includes('No mistakes found')")),
         false
     );
     // It runs all the same.
     browser.wait("whyNoRun() === ''");
     browser.press("[data-name=\"whole.ngc\"]");
-    browser.wait(&format!("{found}.includes('Nothing was found')"));
+    browser.wait(&format!("{found}.includes('No mistakes found')"));
     assert_eq!(
         browser.evaluate(&format!("{found}.includes('The text ends')")),
         false

@@ -22,6 +22,7 @@ mod proxy;
 mod queue;
 mod says;
 mod screens;
+mod scripts;
 mod shortcut;
 mod shuttle;
 mod spindle;

@@ -165,7 +165,7 @@ fn part_zero_and_the_length_of_a_tool_are_touched_off() {
     // Nothing is there: the probing move says so, and nothing is set.
     write(&mut browser, "reach", "0.5");
     press(&mut browser, "#table [data-do=touch-go]", HALF);
-    browser.wait("TOUCH.says.includes('did not find a contact')");
+    browser.wait("TOUCH.says.includes('no contact within')");
     assert!((number(&mut browser, "SETUP.tools[0].offset.Z") - length).abs() < 1e-12);
     drop(live);
     for process in [service, servo, interpolator] {

@@ -75,10 +75,13 @@ pub(super) fn agreement<S: glidepath_planner::ItemSource>(
             "\nwhat inputs and the probe said before that line, {told} answers: as in the run before"
         );
     }
+    let axis = approach.tool_axis;
+    let down_mm = approach.up_to(&found.begins_at()) - found.begins_at()[axis.index()];
+    let down_s = down_mm / found.way_down_v();
     let _ = write!(
         text,
-        "\nthe way: {} up, what differs, the other axes at rapid, {} down at {down_mm_min:.0} mm/min",
-        approach.tool_axis, approach.tool_axis
+        "\nthe way: {axis} up, what differs, the other axes at rapid, {axis} down {down_mm:.0} mm at {down_mm_min:.0} mm/min, \
+         which takes {down_s:.0} s"
     );
     text
 }

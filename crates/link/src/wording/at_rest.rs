@@ -76,7 +76,7 @@ impl AtRest {
             }
             Self::Silent => {
                 "the drives have no power, and do not say where they are; start the servo stack, for \
-                 example `glidepath ethercat --drives drives.toml`, then `glidepath enable` gives it"
+                 example `glidepath ethercat` or `glidepath servo`, then `glidepath enable` gives it"
             }
         }
     }

@@ -67,7 +67,7 @@ impl Job {
     pub fn name(&self) -> String {
         match self {
             Self::Line(text) => format!("mdi {text}"),
-            Self::Sequence(text) => format!("mdi {} …", text.lines().next().unwrap_or_default()),
+            Self::Sequence(text) => format!("mdi {} …", telling(text)),
             Self::File { path, .. } => {
                 let name = path.file_name().unwrap_or(path.as_os_str());
                 name.to_string_lossy().into_owned()
@@ -75,6 +75,17 @@ impl Job {
             Self::Lines { name, .. } => name.clone(),
         }
     }
+}
+
+/// The first line of a sequence that does more than save modes, or set units and the kind of distance.
+fn telling(text: &str) -> &str {
+    const SETTING: [&str; 6] = ["M70", "G20", "G21", "G8", "G90", "G91"];
+    let sets = |line: &&str| line.split_whitespace().all(|word| SETTING.contains(&word));
+    let mut lines = text.lines();
+    lines
+        .find(|line| !sets(line))
+        .or_else(|| text.lines().next())
+        .unwrap_or_default()
 }
 
 /// The end of a job, with words for people.
@@ -111,5 +122,17 @@ pub trait JobRunner {
     /// How the machine is set up for the next job, if that is known.
     fn facts(&self) -> Option<LineFacts> {
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::telling;
+
+    #[test]
+    fn a_sequence_is_known_by_what_it_does() {
+        assert_eq!(telling("M70\nG21\nG38.2 Z-5 F100\nM72"), "G38.2 Z-5 F100");
+        assert_eq!(telling("M70\nG21 G8\nG10 L20 P0 X0\nM72"), "G10 L20 P0 X0");
+        assert_eq!(telling("G90\nG20"), "G90");
     }
 }

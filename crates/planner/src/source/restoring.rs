@@ -3,6 +3,16 @@
 use glidepath_link::{Auxiliary, Coolant, SpindleState};
 use glidepath_program::Event;
 
+/// The events that wait for what these have told, in front of the first feed: for codes that the machine waits for
+/// later than where they stand. For all others they do nothing.
+pub(crate) fn awaiting(told: &[Event]) -> Vec<Event> {
+    let codes = told.iter().filter_map(|event| match event {
+        Event::MCode(code) => Some(Event::Await(*code)),
+        _ => None,
+    });
+    codes.collect()
+}
+
 /// The events that make what is now what is expected.
 pub(crate) fn restoring(now: &Auxiliary, expected: &Auxiliary) -> Vec<Event> {
     let mut events = Vec::new();

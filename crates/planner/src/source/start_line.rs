@@ -18,7 +18,7 @@ use thiserror::Error;
 use crate::run::refusal::Refusal;
 use crate::source::input_arbiter::InputResult;
 use crate::source::item_source::{ItemSource, Settled, Supply};
-use crate::source::restoring::restoring;
+use crate::source::restoring::{awaiting, restoring};
 use crate::source::resume::{Remainder, ResumePoint};
 
 /// What is no way, mm or degrees.
@@ -103,6 +103,16 @@ pub struct Approach {
     pub tool_axis: Axis,
     /// Where it is up, in machine coordinates; `None`: at the higher one of both ends.
     pub top: Option<f64>,
+}
+
+impl Approach {
+    /// How far up the tool axis goes on the way to a position, mm or degrees.
+    #[must_use]
+    pub fn up_to(&self, begins_at: &AxisVector) -> f64 {
+        let axis = self.tool_axis.index();
+        let top = self.top.unwrap_or(f64::NEG_INFINITY);
+        self.position[axis].max(begins_at[axis]).max(top)
+    }
 }
 
 impl<S: ItemSource> LineStart<S> {
@@ -203,19 +213,13 @@ impl<S: ItemSource> LineStart<S> {
     pub fn approached(mut self, approach: &Approach) -> Remainder<S> {
         let mut items = Vec::new();
         let axis = approach.tool_axis.index();
-        let top = approach.top.unwrap_or(f64::NEG_INFINITY);
         let mut up = approach.position;
-        up[axis] = up[axis].max(self.begins_at[axis]).max(top);
+        up[axis] = approach.up_to(&self.begins_at);
         let mut over = self.begins_at;
         over[axis] = up[axis];
         push_move(&mut items, approach.position, up, Rate::Rapid);
         let mut events = restoring(&approach.now, &self.expected);
-        // In front of the first feed, whatever the machine waits for later than where it stands.
-        let awaited = events.iter().filter_map(|event| match event {
-            Event::MCode(code) => Some(Event::Await(*code)),
-            _ => None,
-        });
-        let awaited: Vec<Event> = awaited.collect();
+        let awaited = awaiting(&events);
         if let Some(value) = self.adaptive {
             let word = CodeWord::P;
             events.extend([Event::CodeWord { word, value }, Event::MCode(ADAPTIVE_FEED)]);

@@ -17,6 +17,7 @@ use crate::run::refusal::Refusal;
 use crate::run::resume_error::ResumeError;
 use crate::source::input_arbiter::InputResult;
 use crate::source::item_source::{ItemSource, Settled, Supply};
+use crate::source::restoring::awaiting;
 
 /// The rest of a program: what follows the point at which it was left.
 #[derive(Debug)]
@@ -151,7 +152,7 @@ impl<S: ItemSource> Remainder<S> {
     }
 
     /// The events that make spindle and coolant what the program had made them, from what they are
-    /// `now`: an abort and a fault stop them. The tool that the program has selected last is selected again.
+    /// `now`, and wait for that: an abort and a fault stop them. The tool that the program has selected last is selected again.
     ///
     /// # Errors
     /// [`ResumeError::OtherTool`].
@@ -161,7 +162,12 @@ impl<S: ItemSource> Remainder<S> {
                 tool: now.tool,
                 expected,
             }),
-            _ => Ok(self.outputs.restoring(now)),
+            _ => {
+                let mut events = self.outputs.restoring(now);
+                // The rest may begin in the middle of a cut.
+                events.extend(awaiting(&events));
+                Ok(events)
+            }
         }
     }
 

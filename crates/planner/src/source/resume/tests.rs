@@ -393,9 +393,17 @@ fn what_was_stopped_turns_again_before_anything_moves() {
     let start = AxisVector::zeros();
     let whole = frames(Pipeline::new(source(), settings(), start));
     for (x, told) in [
-        (15.0, vec![Event::MCode(3), Event::MCode(8)]),
+        (
+            15.0,
+            vec![
+                Event::MCode(3),
+                Event::MCode(8),
+                Event::Await(3),
+                Event::Await(8),
+            ],
+        ),
         // The program has stopped the spindle itself by then.
-        (25.0, vec![Event::MCode(8)]),
+        (25.0, vec![Event::MCode(8), Event::Await(8)]),
     ] {
         let left = whole.iter().find(|f| f.position[0] > x).unwrap();
         let first = whole.iter().find(|f| f.block == left.block).unwrap();
