@@ -75,8 +75,8 @@ impl AtRest {
                  through; it goes on by itself when they do, after a hold with `glidepath resume`"
             }
             Self::Silent => {
-                "the drives have no power, and do not say where they are; start the servo stack, for \
-                 example `glidepath ethercat` or `glidepath servo`, then `glidepath enable` gives it"
+                "the drives have no power, and do not say where they are; start `glidepath \
+                 ethercat --drives drives.toml` or `glidepath servo`, then `glidepath enable` gives it"
             }
         }
     }

@@ -175,7 +175,7 @@ impl UnmetPrecondition {
             Self::FaultLatched => "a fault is latched; clear it first with `glidepath reset`",
             Self::PowerAsked => "the drives are on, or were asked to be",
             Self::NoPosition => {
-                "the drives do not say where they are; start the servo stack, for example `glidepath ethercat` or `glidepath servo`"
+                "the drives do not say where they are; start `glidepath ethercat --drives drives.toml` or `glidepath servo`"
             }
             Self::NoPose => {
                 "the drives say where no pose of the mechanism is; tell where the joints are with \
@@ -189,7 +189,7 @@ impl UnmetPrecondition {
             Self::NoSuchJoint => "the machine has no such joint",
             Self::SecondJoint => "it is the second joint of its axis, and goes with the first",
             Self::Unreported => {
-                "nobody says where the joint is; start the servo stack, for example `glidepath ethercat` or `glidepath servo`"
+                "nobody says where the joint is; start `glidepath ethercat --drives drives.toml` or `glidepath servo`"
             }
             Self::NeedsPower => {
                 "the drives have to be on, and are not; `glidepath enable` switches them on"
